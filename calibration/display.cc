@@ -1,0 +1,86 @@
+// The product of optics and map, with every limit.
+#include "calibration/display.h"
+
+#include <cmath>
+
+#include "base/log.h"
+
+namespace lfd {
+namespace {
+
+Status validate(const IdealMap&) { return {}; }
+
+Status validate_module(const DisplayCalibration& display, const ModuleCalibration& module) {
+  LFD_TRY_STATUS(lfd::validate(display.optics, module.emitter));
+  return std::visit([](const auto& map) { return validate(map); }, module.map);
+}
+
+}  // namespace
+
+Status validate(const DisplayCalibration& display) {
+  for (const auto& [name, value] : {std::pair{"screen width_m", display.screen.width_m},
+                                    std::pair{"screen height_m", display.screen.height_m},
+                                    std::pair{"angular_scattering_rad", display.angular_scattering_rad}}) {
+    if (!(value > 0) || !std::isfinite(value)) return Error(fmt::format("{}: {} must be positive and finite", name, value));
+  }
+  for (const auto& [name, value] :
+       {std::pair{"image width", display.image.width}, std::pair{"image height", display.image.height}}) {
+    if (value < 1 || value > kMaxImageSide_px) {
+      return Error(fmt::format("{}: {} px; 1 to {} are possible", name, value, kMaxImageSide_px));
+    }
+  }
+  if (display.modules.empty() || display.modules.size() > kMaxModules) {
+    return Error(fmt::format("{} modules; 1 to {} are possible", display.modules.size(), kMaxModules));
+  }
+  for (std::size_t k = 0; k < display.modules.size(); ++k) {
+    if (auto status = validate_module(display, display.modules[k]); !status) {
+      return status.error().within(fmt::format("module {}", k));
+    }
+  }
+  return {};
+}
+
+std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module, ScreenPoint s) {
+  if (!contains(display.screen, s)) return std::nullopt;
+  std::optional<PixelPoint> p;
+  if (const auto* ideal = std::get_if<IdealMap>(&module.map)) {
+    p = image_from_screen(*ideal, display.screen, display.image, s);
+  } else if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
+    p = image_from_screen(*homography, s);
+  } else {
+    p = image_from_screen(std::get<PinholeMap>(module.map), s);
+  }
+  if (!p || !contains(display.image, *p)) return std::nullopt;
+  return p;
+}
+
+std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module, PixelPoint p) {
+  if (!contains(display.image, p)) return std::nullopt;
+  std::optional<ScreenPoint> s;
+  if (const auto* ideal = std::get_if<IdealMap>(&module.map)) {
+    s = screen_from_image(*ideal, display.screen, display.image, p);
+  } else if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
+    s = screen_from_image(*homography, p);
+  } else {
+    s = screen_from_image(std::get<PinholeMap>(module.map), p);
+  }
+  if (!s || !contains(display.screen, *s)) return std::nullopt;
+  return s;
+}
+
+std::optional<ImagePoint> image_from_physical(const DisplayCalibration& display, const ModuleCalibration& module,
+                                              Point3<Physical> p) {
+  const auto s = screen_from_physical(display.optics, module.emitter, p);
+  if (!s) return std::nullopt;
+  const auto pixel = image_from_screen(display, module, *s);
+  if (!pixel) return std::nullopt;
+  return ImagePoint{pixel->x, pixel->y, p.z};
+}
+
+std::optional<PixelLine> pixel_line(const DisplayCalibration& display, const ModuleCalibration& module, PixelPoint p) {
+  const auto s = screen_from_image(display, module, p);
+  if (!s) return std::nullopt;
+  return line_of_screen_point(display.optics, module.emitter, *s);
+}
+
+}  // namespace lfd

@@ -1,0 +1,131 @@
+// The pinhole map forward, and backward by solving.
+#include "calibration/maps/pinhole.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <tuple>
+
+#include "base/log.h"
+
+namespace lfd {
+namespace {
+
+glm::dmat3 module_from_physical_rotation(const PinholeMap& map) {
+  const glm::dmat3 physical_from_turned = glm::mat3_cast(glm::normalize(map.orientation));
+  glm::dmat3 rotation = glm::transpose(physical_from_turned);
+  for (int column = 0; column < 3; ++column) rotation[column].y = -rotation[column].y;
+  return rotation;
+}
+
+glm::dvec2 distort(const PinholeMap& m, glm::dvec2 a) {
+  const double r2 = glm::dot(a, a);
+  const double radial = 1 + r2 * (m.k1 + r2 * (m.k2 + r2 * m.k3));
+  return a * radial + glm::dvec2(2 * m.p1 * a.x * a.y + m.p2 * (r2 + 2 * a.x * a.x),
+                                 m.p1 * (r2 + 2 * a.y * a.y) + 2 * m.p2 * a.x * a.y);
+}
+
+glm::dmat2 distort_jacobian(const PinholeMap& m, glm::dvec2 a) {
+  const double r2 = glm::dot(a, a);
+  const double radial = 1 + r2 * (m.k1 + r2 * (m.k2 + r2 * m.k3));
+  const double slope = 2 * (m.k1 + r2 * (2 * m.k2 + r2 * 3 * m.k3));  // d radial / d r2, times 2
+  const double xx = radial + slope * a.x * a.x + 2 * m.p1 * a.y + 6 * m.p2 * a.x;
+  const double yy = radial + slope * a.y * a.y + 6 * m.p1 * a.y + 2 * m.p2 * a.x;
+  const double xy = slope * a.x * a.y + 2 * m.p1 * a.x + 2 * m.p2 * a.y;
+  return {{xx, xy}, {xy, yy}};
+}
+
+// Newton with halved steps wherever a full one does not bring the residual down or leaves the region that can be inverted.
+std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
+  const double limit = distortion_limit(m);
+  if (m.k1 == 0 && m.k2 == 0 && m.k3 == 0 && m.p1 == 0 && m.p2 == 0) return wanted;
+  glm::dvec2 a = wanted;
+  if (glm::length(a) >= limit) a *= 0.9 * limit / glm::length(a);
+  double residual = glm::length(distort(m, a) - wanted);
+  const double enough = 1e-13 * (1 + glm::length(wanted));
+  for (int iteration = 0; iteration < 60 && residual > enough; ++iteration) {
+    const glm::dmat2 jacobian = distort_jacobian(m, a);
+    const glm::dvec2 step = glm::inverse(jacobian) * (wanted - distort(m, a));
+    double fraction = 1;
+    for (; fraction > 1e-6; fraction *= 0.5) {
+      const glm::dvec2 candidate = a + fraction * step;
+      const double candidate_residual = glm::length(distort(m, candidate) - wanted);
+      if (glm::length(candidate) < limit && candidate_residual < residual) {
+        std::tie(a, residual) = std::tuple(candidate, candidate_residual);
+        break;
+      }
+    }
+    if (!(fraction > 1e-6)) break;
+  }
+  if (!(residual <= 100 * enough) || !(glm::determinant(distort_jacobian(m, a)) > 0)) return std::nullopt;
+  return a;
+}
+
+}  // namespace
+
+Status validate(const PinholeMap& map) {
+  if (!is_finite(map.position)) return Error("position: must be finite");
+  for (const auto& [name, value] : {std::pair{"focal_u_px", map.focal_u_px}, std::pair{"focal_v_px", map.focal_v_px}}) {
+    if (!(value > 0) || !std::isfinite(value)) return Error(fmt::format("{}: {} must be positive and finite", name, value));
+  }
+  for (const auto& [name, value] :
+       {std::pair{"principal_u_px", map.principal_u_px}, std::pair{"principal_v_px", map.principal_v_px},
+        std::pair{"k1", map.k1}, std::pair{"k2", map.k2}, std::pair{"k3", map.k3}, std::pair{"p1", map.p1},
+        std::pair{"p2", map.p2}}) {
+    if (!std::isfinite(value)) return Error(fmt::format("{}: must be finite", name));
+  }
+  const double norm = glm::length(map.orientation);
+  if (!(std::abs(norm - 1) <= 1e-6)) {
+    return Error(fmt::format("orientation: a unit quaternion is needed, its length is {}", norm));
+  }
+  return {};
+}
+
+double distortion_limit(const PinholeMap& m) {
+  // d/dr of r (1 + k1 r^2 + k2 r^4 + k3 r^6) = 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3 with q = r^2: its smallest positive root.
+  const auto slope = [&m](double q) { return 1 + q * (3 * m.k1 + q * (5 * m.k2 + q * 7 * m.k3)); };
+  if (m.k1 >= 0 && m.k2 >= 0 && m.k3 >= 0) return std::numeric_limits<double>::infinity();
+  // Scan outward in steps small against the scale of the coefficients, then bisect.
+  double low = 0;
+  const double coefficients = std::max({std::abs(3 * m.k1), std::sqrt(std::abs(5 * m.k2)), std::cbrt(std::abs(7 * m.k3))});
+  const double far = 8 / coefficients * 1e3;
+  for (double q = 1e-3 / coefficients; q < far; q *= 1.01) {
+    if (slope(q) > 0) {
+      low = q;
+      continue;
+    }
+    double high = q;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (low + high);
+      (slope(middle) > 0 ? low : high) = middle;
+    }
+    return std::sqrt(low);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s) {
+  const glm::dvec3 q = module_from_physical_rotation(map) * (glm::dvec3(s.x, s.y, 0) - to_glm(map.position));
+  if (!(q.z > 0)) return std::nullopt;
+  const glm::dvec2 a = glm::dvec2(q) / q.z;
+  if (!(glm::length(a) < distortion_limit(map))) return std::nullopt;
+  const glm::dvec2 distorted = distort(map, a);
+  const PixelPoint p{map.focal_u_px * distorted.x + map.principal_u_px, map.focal_v_px * distorted.y + map.principal_v_px};
+  if (!is_finite(p)) return std::nullopt;
+  return p;
+}
+
+std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p) {
+  const auto a = undistort(map, {(p.x - map.principal_u_px) / map.focal_u_px, (p.y - map.principal_v_px) / map.focal_v_px});
+  if (!a) return std::nullopt;
+  const glm::dvec3 direction = glm::transpose(module_from_physical_rotation(map)) * glm::dvec3(*a, 1);
+  const double distance = -map.position.z / direction.z;  // to the plane z = 0
+  if (!(distance > 0)) return std::nullopt;
+  const ScreenPoint s{map.position.x + distance * direction.x, map.position.y + distance * direction.y};
+  if (!is_finite(s)) return std::nullopt;
+  return s;
+}
+
+}  // namespace lfd

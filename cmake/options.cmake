@@ -1,0 +1,36 @@
+# How everything is compiled: warnings are errors, sanitizers and clang-tidy on request.
+set(LFD_SANITIZE "" CACHE STRING "Sanitizers for all targets, e.g. address,undefined")
+option(LFD_TIDY "Run clang-tidy beside every compile" OFF)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+if(LFD_TIDY)
+  find_program(CLANG_TIDY_PROGRAM clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY_PROGRAM})
+endif()
+if(LFD_SANITIZE)
+  add_compile_options(-fsanitize=${LFD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${LFD_SANITIZE})
+endif()
+
+add_library(lfd_warnings INTERFACE)
+target_compile_options(lfd_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+target_include_directories(lfd_warnings INTERFACE ${CMAKE_SOURCE_DIR})
+
+# lfd_library(NAME SOURCES ... PUBLIC ... PRIVATE ...): a static library of one folder; links are listed by hand.
+function(lfd_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} lfd_warnings)
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+endfunction()
+
+# lfd_program(NAME SOURCES ... LINKS ...): one executable in bin/.
+function(lfd_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINKS} lfd_warnings)
+endfunction()

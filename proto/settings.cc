@@ -1,0 +1,129 @@
+// Settings out of messages, with defaults and limits.
+#include "proto/settings.h"
+
+#include <cmath>
+
+#include "base/log.h"
+
+namespace lfd {
+namespace {
+
+Status check_range(const char* field, double value, double low, double high) {
+  if (value >= low && value <= high) return {};
+  return Error(fmt::format("{}: {}; {} to {} are possible", field, value, low, high));
+}
+
+template <class S>
+Point3<S> point_from(const proto::Vector& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+template <class V>
+void set_vector(proto::Vector* to, const V& from) {
+  to->set_x(from.x);
+  to->set_y(from.y);
+  to->set_z(from.z);
+}
+
+glm::dvec3 size_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
+
+Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
+  AoSettings ao;
+  if (m.has_enabled()) ao.enabled = m.enabled();
+  LFD_TRY_STATUS(check_range("ao.radius_m", m.radius_m(), 0, 1e30));
+  LFD_TRY_STATUS(check_range("ao.radius_roi", m.radius_roi(), 0, 1e6));
+  LFD_TRY_STATUS(check_range("ao.samples", m.samples(), 0, 256));
+  LFD_TRY_STATUS(check_range("ao.radii", m.radii(), 0, 8));
+  ao.radius_m = m.radius_m();
+  if (m.radius_roi() > 0) ao.radius_roi = m.radius_roi();
+  if (m.samples() > 0) ao.samples = m.samples();
+  if (m.radii() > 0) ao.radii = m.radii();
+  ao.generator = static_cast<SampleGenerator>(m.generator());
+  LFD_TRY_STATUS(check_range("ao.generator", m.generator(), 0, 3));
+  if (m.has_shell()) ao.shell = m.shell();
+  LFD_TRY_STATUS(check_range("ao.shell", ao.shell, 0, 1));
+  ao.seed = m.seed();
+  ao.point_symmetric = m.point_symmetric();
+  if (m.has_curve()) {
+    ao.curve_a = m.curve().a();
+    ao.curve_b = m.curve().b();
+    ao.curve_c = m.curve().c();
+  }
+  LFD_TRY_STATUS(check_range("ao.curve.a", ao.curve_a, -1, 1));
+  LFD_TRY_STATUS(check_range("ao.curve.b", ao.curve_b, 1e-3, 1e3));
+  LFD_TRY_STATUS(check_range("ao.curve.c", ao.curve_c, 1e-3, 1e3));
+  if (m.blur().has_enabled()) ao.blur_enabled = m.blur().enabled();
+  if (m.blur().sigma_px() != 0) ao.blur_sigma_px = m.blur().sigma_px();
+  LFD_TRY_STATUS(check_range("ao.blur.sigma_px", ao.blur_sigma_px, 0.1, 8));
+  LFD_TRY_STATUS(check_range("ao.target", m.target(), 0, 1));
+  ao.target = static_cast<AoTarget>(m.target());
+  return ao;
+}
+
+}  // namespace
+
+Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
+  RenderSettings settings;
+  LFD_TRY(settings.ao, read_ao(m.ao()));
+  for (const double part : {m.background().r(), m.background().g(), m.background().b()}) {
+    LFD_TRY_STATUS(check_range("background", part, 0, 1));
+  }
+  settings.background = {m.background().r(), m.background().g(), m.background().b()};
+  LFD_TRY_STATUS(check_range("planner", m.planner(), 0, 1));
+  settings.plan = m.planner() == proto::RenderSettings::PLAN;
+  if (m.subdivision_px() != 0) settings.subdivision_px = m.subdivision_px();
+  LFD_TRY_STATUS(check_range("subdivision_px", settings.subdivision_px, 0.01, 1e4));
+  if (m.has_near_z_m()) settings.near_z_m = m.near_z_m();
+  if (m.has_far_z_m()) settings.far_z_m = m.far_z_m();
+  for (const auto& z : {settings.near_z_m, settings.far_z_m}) {
+    if (z && !std::isfinite(*z)) return Error("near_z_m, far_z_m: must be finite");
+  }
+  if (settings.near_z_m && settings.far_z_m && !(*settings.far_z_m < *settings.near_z_m)) {
+    return Error(fmt::format("far_z_m: {} must be less than near_z_m, {}: z grows toward the viewer", *settings.far_z_m,
+                             *settings.near_z_m));
+  }
+  settings.unlit = m.unlit();
+  return settings;
+}
+
+Result<RegionOfInterest> read_roi(const proto::RegionOfInterest& m) {
+  RegionOfInterest roi;
+  roi.world_centre = point_from<World>(m.world_centre());
+  roi.world_size = size_from(m.world_size());
+  if (m.has_world_orientation()) {
+    const auto& q = m.world_orientation();
+    roi.world_orientation = glm::dquat(q.w(), q.x(), q.y(), q.z());
+  }
+  roi.physical_centre = point_from<Physical>(m.physical_centre());
+  roi.physical_size = size_from(m.physical_size());
+  if (auto status = validate(roi); !status) return status.error().within("roi");
+  return roi;
+}
+
+proto::RegionOfInterest write_roi(const RegionOfInterest& roi) {
+  proto::RegionOfInterest m;
+  set_vector(m.mutable_world_centre(), roi.world_centre);
+  set_vector(m.mutable_world_size(), roi.world_size);
+  m.mutable_world_orientation()->set_w(roi.world_orientation.w);
+  m.mutable_world_orientation()->set_x(roi.world_orientation.x);
+  m.mutable_world_orientation()->set_y(roi.world_orientation.y);
+  m.mutable_world_orientation()->set_z(roi.world_orientation.z);
+  set_vector(m.mutable_physical_centre(), roi.physical_centre);
+  set_vector(m.mutable_physical_size(), roi.physical_size);
+  return m;
+}
+
+Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, Point3<World> low, Point3<World> high,
+                                      double screen_width_m, double screen_height_m) {
+  proto::RegionOfInterest m = message;
+  const RegionOfInterest bounds = fit_to_screen(low, high, screen_width_m, screen_height_m);
+  if (!m.has_world_centre()) set_vector(m.mutable_world_centre(), bounds.world_centre);
+  if (!m.has_world_size()) set_vector(m.mutable_world_size(), bounds.world_size);
+  if (!m.has_physical_size()) {
+    const glm::dvec3 size = size_from(m.world_size());
+    set_vector(m.mutable_physical_size(), size * std::min(screen_width_m / size.x, screen_height_m / size.y));
+  }
+  return read_roi(m);
+}
+
+}  // namespace lfd

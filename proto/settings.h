@@ -1,0 +1,59 @@
+// Render settings with every default filled in and every number checked.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "base/result.h"
+#include "calibration/spaces/roi.h"
+#include "proto/settings.pb.h"
+
+namespace lfd {
+
+enum class SampleGenerator { kPoissonDisk, kUniform, kJittered, kLatinSquare };
+enum class AoTarget { kAmbientLight, kWholeColor };
+
+// Ambient occlusion by Algorithm 2 of seeds/001; the meaning of each number: settings.proto.
+struct AoSettings {
+  bool enabled = true;
+  double radius_m = 0;  // 0: radius_roi x ROI diagonal
+  double radius_roi = 0.03;
+  int samples = 8;
+  SampleGenerator generator = SampleGenerator::kPoissonDisk;
+  double shell = 0.8;
+  int radii = 1;
+  std::uint32_t seed = 0;
+  bool point_symmetric = false;
+  double curve_a = 0.5, curve_b = 1, curve_c = 1;
+  bool blur_enabled = true;
+  double blur_sigma_px = 1.5;
+  AoTarget target = AoTarget::kAmbientLight;
+  bool operator==(const AoSettings&) const = default;
+
+  // The world-space radius for this region of interest.
+  double radius_in_world_m(double roi_diagonal_m) const { return radius_m > 0 ? radius_m : radius_roi * roi_diagonal_m; }
+};
+
+struct RenderSettings {
+  AoSettings ao;
+  glm::vec3 background{0};  // linear
+  bool plan = true;         // leave out what the scene does not need
+  double subdivision_px = 0.1;
+  std::optional<double> near_z_m, far_z_m;
+  bool unlit = false;
+  bool operator==(const RenderSettings&) const = default;
+};
+
+// Errors name the field: "ao.samples: 1000; 1 to 256 are possible".
+Result<RenderSettings> read_settings(const proto::RenderSettings& message);
+
+// A complete region of interest (every box given). Errors name the field.
+Result<RegionOfInterest> read_roi(const proto::RegionOfInterest& message);
+proto::RegionOfInterest write_roi(const RegionOfInterest& roi);
+
+// Fills what `message` leaves out: the world box from the scene's bounds, the physical box by uniform scale to fit the screen
+// (fit_to_screen of calibration/spaces/roi.h). A missing orientation is unturned.
+Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, Point3<World> low, Point3<World> high,
+                                      double screen_width_m, double screen_height_m);
+
+}  // namespace lfd
