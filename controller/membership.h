@@ -71,7 +71,7 @@ class Membership {
   const Peer* display() const;             // the living one
   std::vector<const Peer*> peers() const;  // all that the deployment names, and displays that ever joined
   std::vector<std::string> ready_nodes() const;
-  bool every_node_was_here() const;  // no node is absent or still joining
+
 
  private:
   Status check(const proto::Join& join, const std::string& address) const;
