@@ -26,7 +26,8 @@ Result<Assignment> assign_modules(const Deployment& deployment, const std::vecto
 std::vector<std::uint32_t> modules_without(const Assignment& assignment, const std::vector<std::string>& present) {
   std::vector<std::uint32_t> without;
   for (const auto& [node, modules] : assignment) {
-    if (std::ranges::find(present, node) == present.end()) without.insert(without.end(), modules.begin(), modules.end());
+    if (std::ranges::find(present, node) == present.end())
+      without.insert(without.end(), modules.begin(), modules.end());
   }
   std::ranges::sort(without);
   return without;

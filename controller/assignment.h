@@ -14,7 +14,8 @@ namespace lfd::controller {
 // Modules by node name, ascending.
 using Assignment = std::map<std::string, std::vector<std::uint32_t>>;
 
-// `only`: empty for all; else numbers and ranges ("3", "8-11") of those that are drawn at all. Errors name the one that is wrong.
+// `only`: empty for all; else numbers and ranges ("3", "8-11") of those that are drawn at all. Errors name the one that
+// is wrong.
 Result<Assignment> assign_modules(const Deployment& deployment, const std::vector<std::string>& only);
 
 // All modules of nodes that are not in `present`, ascending: nobody draws them.

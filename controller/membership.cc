@@ -139,11 +139,4 @@ std::vector<std::string> Membership::ready_nodes() const {
   return names;
 }
 
-bool Membership::every_node_was_here() const {
-  return std::ranges::all_of(peers_, [](const auto& entry) {
-    const Peer& peer = entry.second;
-    return peer.role != proto::NODE || peer.phase == Phase::kReady || peer.phase == Phase::kOut;
-  });
-}
-
 }  // namespace lfd::controller

@@ -72,7 +72,6 @@ class Membership {
   std::vector<const Peer*> peers() const;  // all that the deployment names, and displays that ever joined
   std::vector<std::string> ready_nodes() const;
 
-
  private:
   Status check(const proto::Join& join, const std::string& address) const;
   void put_out(Peer& peer);

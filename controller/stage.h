@@ -20,21 +20,21 @@ class Stage {
 
   bool has_scene() const { return scene_.has_value(); }
   const StateStore& store() const { return store_; }
-  const RegionOfInterest& roi() const { return roi_; }                // of the scene that is there
-  const Assets& assets() const { return scene_->data.assets; }        // likewise
+  const RegionOfInterest& roi() const { return roi_; }          // of the scene that is there
+  const Assets& assets() const { return scene_->data.assets; }  // likewise
 
   // Each changes the state and returns the update to publish; an error changes nothing.
   Result<proto::Update> show(LoadedScene scene);
   Result<proto::Update> set_roi(const proto::RegionOfInterest& wish);  // boxes left out follow from the scene's bounds
   Result<proto::Update> set_render(const proto::RenderSettings& render);
   Result<proto::Update> set_ao(const proto::AmbientOcclusion& ao);
-  std::optional<proto::Update> set_buffers(std::uint32_t buffers);     // absent: they are those already
+  std::optional<proto::Update> set_buffers(std::uint32_t buffers);  // absent: they are those already
 
   // An update that changes nothing of the state (where the display is), numbered like the others.
   proto::Update number(proto::Update update) { return store_.change(std::move(update)); }
 
-  // Moves what moves to its place at frame / (frames per second of the deployment), so that pictures do not depend on how fast
-  // frames come. Absent where nothing moves.
+  // Moves what moves to its place at frame / (frames per second of the deployment), so that pictures do not depend on
+  // how fast frames come. Absent where nothing moves.
   std::optional<proto::Update> animate(std::uint64_t frame);
 
  private:

@@ -32,8 +32,8 @@ Result<std::unique_ptr<Daemon>> Daemon::open(Options options) {
   LFD_TRY(Stage stage, Stage::of(options.deployment));
   auto context = std::make_unique<wire::Context>();
   LFD_TRY(Links links, Links::open(*context, options.deployment.addresses));
-  return std::unique_ptr<Daemon>(new Daemon(std::move(options), std::move(links), std::move(context), std::move(stage),
-                                            std::move(assignment)));
+  return std::unique_ptr<Daemon>(
+      new Daemon(std::move(options), std::move(links), std::move(context), std::move(stage), std::move(assignment)));
 }
 
 Daemon::Daemon(Options options, Links links, std::unique_ptr<wire::Context> context, Stage stage, Assignment assignment)
@@ -79,9 +79,12 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
   members_.heard(message.peer, now);
   const Peer* peer = members_.at(message.peer);
   switch (envelope.body_case()) {
-    case proto::Envelope::kJoin: return take_join(message, now);
-    case proto::Envelope::kRequest: return take_request(message, now);
-    case proto::Envelope::kHeartbeat: return take_heartbeat(message);
+    case proto::Envelope::kJoin:
+      return take_join(message, now);
+    case proto::Envelope::kRequest:
+      return take_request(message, now);
+    case proto::Envelope::kHeartbeat:
+      return take_heartbeat(message);
     case proto::Envelope::kSnapshotRequest:
       if (peer != nullptr && stage_.has_scene()) send_snapshot(message.peer);
       return;
@@ -98,7 +101,9 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
     case proto::Envelope::kLeave:
       if (const auto name = members_.leave(message.peer)) peer_is_gone(*name, envelope.leave().reason().c_str());
       return;
-    default: log::debug("control: a message that nobody sends to a controller"); return;
+    default:
+      log::debug("control: a message that nobody sends to a controller");
+      return;
   }
 }
 

@@ -58,7 +58,8 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   if (!has_display_sink()) log_.shown(swap.frame, now);
   last_swap_ = now;
   late_ = {swap.missing.begin(), swap.missing.end()};
-  log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun), stale.size());
+  log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun),
+             stale.size());
 }
 
 void Daemon::answer_frames_asked(Clock::time_point now) {
@@ -71,8 +72,8 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   const bool may_drop = options_.deployment.pacing.deadline.count() > 0;
   const bool never_shown = members_.display() == nullptr || (may_drop && last_swap_ && now - *last_swap_ > patience);
   const bool stuck = barrier_.in_flight() == 0 && std::ranges::all_of(assignment_, [&](const auto& entry) {
-    return entry.second.empty() || members_.find(entry.first)->phase == Phase::kOut;
-  });
+                       return entry.second.empty() || members_.find(entry.first)->phase == Phase::kOut;
+                     });
   const bool complete = swapped && (shown || never_shown);
   if (!complete && !stuck) return;
 

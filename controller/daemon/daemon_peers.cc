@@ -19,8 +19,8 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   barrier_.gone(*name);  // whatever it drew before it joined anew is lost
   log::info("\"{}\" joins (process {})", *name, join.process());
   const Peer& peer = *members_.find(*name);
-  if (stage_.has_scene()) welcome(peer, now);
   if (peer.role == proto::DISPLAY) publish_images_endpoint();
+  if (stage_.has_scene()) welcome(peer, now);
 }
 
 void Daemon::take_heartbeat(const wire::Message& message) {

@@ -33,15 +33,21 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
       *envelope.mutable_reply()->mutable_status() = status(now);
       return send(message.peer, envelope);
     }
-    case proto::Request::kRoi: return change(stage_.set_roi(request.roi()));
-    case proto::Request::kRender: return change(stage_.set_render(request.render()));
-    case proto::Request::kAo: return change(stage_.set_ao(request.ao()));
-    case proto::Request::kSceneFile: return start(start_scene(message));
-    case proto::Request::kFrames: return start(start_frames(message));
+    case proto::Request::kRoi:
+      return change(stage_.set_roi(request.roi()));
+    case proto::Request::kRender:
+      return change(stage_.set_render(request.render()));
+    case proto::Request::kAo:
+      return change(stage_.set_ao(request.ao()));
+    case proto::Request::kSceneFile:
+      return start(start_scene(message));
+    case proto::Request::kFrames:
+      return start(start_frames(message));
     case proto::Request::kQuit:
       end_ = "a client asked for it";
       return reply(message.peer, request.id(), {});
-    case proto::Request::WHAT_NOT_SET: return reply(message.peer, request.id(), Error("an empty request"));
+    case proto::Request::WHAT_NOT_SET:
+      return reply(message.peer, request.id(), Error("an empty request"));
   }
 }
 

@@ -4,13 +4,14 @@
 #include <thread>
 
 #include "base/check.h"
-#include "controller/scene/made/make_scene.h"
+#include "controller/scene/made/made_scenes.h"
 
 namespace lfd::controller {
 namespace {
 
 Result<LoadedScene> load(const SceneSource& source) {
-  if (const auto* made = std::get_if<proto::Deployment::Made>(&source)) return make_scene(made->name(), made->seed());
+  if (const auto* made = std::get_if<proto::Deployment::Made>(&source))
+    return scene::make_scene(made->name(), made->seed());
   return load_scene(std::get<std::filesystem::path>(source));
 }
 

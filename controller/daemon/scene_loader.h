@@ -18,7 +18,7 @@ namespace lfd::controller {
 using SceneSource = std::variant<std::filesystem::path, proto::Deployment::Made>;
 
 struct SceneArrival {
-  std::string asker;             // address of the client that is to hear of it; empty: nobody asked, it is the first scene
+  std::string asker;  // address of the client that is to hear of it; empty: nobody asked, it is the first scene
   std::uint64_t request_id = 0;  // of that client
   Result<LoadedScene> scene;
 };
@@ -37,7 +37,8 @@ class SceneLoader {
   std::optional<SceneArrival> take();
 
  private:
-  // Shared with the loading thread, which nobody waits for: a load cannot be interrupted, and a process that ends leaves it.
+  // Shared with the loading thread, which nobody waits for: a load cannot be interrupted, and a process that ends
+  // leaves it.
   std::shared_ptr<wire::Mailbox<SceneArrival>> arrivals_;
   bool busy_ = false;
 };
