@@ -34,7 +34,7 @@ void FrameLog::begun(std::uint64_t frame, const RegionOfInterest& roi, const std
   report.mutable_position_origin()->set_z(origin.z);
   report.set_roi_diagonal(roi.diagonal_m());
   report.set_state_hash(state_hash);
-  entries_.push_back({std::move(report), now});
+  entries_.push_back({std::move(report), now, false});
   if (entries_.size() > kRemembered) entries_.pop_front();
 }
 
@@ -62,8 +62,17 @@ void FrameLog::swapped(const FrameBarrier::Swap& swap, const std::vector<std::ui
 }
 
 void FrameLog::shown(std::uint64_t frame, Clock::time_point now) {
-  last_shown_ = std::max(last_shown_.value_or(0), frame);
-  if (Entry* entry = find(frame)) entry->report.set_begin_to_shown_ms(milliseconds(now - entry->begun));
+  Entry* entry = find(frame);
+  if (entry == nullptr) return;
+  entry->shown = true;
+  entry->report.set_begin_to_shown_ms(milliseconds(now - entry->begun));
+}
+
+bool FrameLog::all_shown(std::uint64_t first, std::uint64_t count) const {
+  const auto shown = std::ranges::count_if(entries_, [&](const Entry& entry) {
+    return entry.shown && entry.report.frame() >= first && entry.report.frame() - first < count;
+  });
+  return static_cast<std::uint64_t>(shown) == count;
 }
 
 double FrameLog::frames_per_second(Clock::time_point now) const {

@@ -23,11 +23,12 @@ class FrameLog {
 
   void swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules, Clock::time_point now);
 
-  // The display or output has the complete frame, and so none of those before it will be shown any more.
+  // The display or output has the complete frame.
   void shown(std::uint64_t frame, Clock::time_point now);
 
   std::optional<std::uint64_t> last_swapped() const { return last_swapped_; }
-  std::optional<std::uint64_t> last_shown() const { return last_shown_; }
+  // Whether each of the frames first .. first + count - 1 has been shown.
+  bool all_shown(std::uint64_t first, std::uint64_t count) const;
   std::uint64_t late_frames() const { return late_frames_; }
   const std::vector<std::uint32_t>& stale_modules() const { return stale_modules_; }
 
@@ -43,13 +44,14 @@ class FrameLog {
   struct Entry {
     proto::FrameReport report;
     Clock::time_point begun;
+    bool shown = false;
   };
   Entry* find(std::uint64_t frame);
 
   std::deque<Entry> entries_;  // by frame number, without gaps
   std::deque<Clock::time_point> swaps_;
   std::vector<std::uint32_t> stale_modules_;
-  std::optional<std::uint64_t> last_swapped_, last_shown_;
+  std::optional<std::uint64_t> last_swapped_;
   std::uint64_t late_frames_ = 0;
 };
 

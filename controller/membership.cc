@@ -65,13 +65,20 @@ Status Membership::check(const proto::Join& join, const std::string& address) co
 
 void Membership::welcomed(const std::string& name, Clock::time_point now) { peers_.at(name).last_heard = now; }
 
-bool Membership::heard(const std::string& address, Clock::time_point now) {
+Membership::Heard Membership::heard(const std::string& address, Clock::time_point now) {
   for (auto& [name, peer] : peers_) {
-    if (peer.address != address || !peer.lives()) continue;
-    if (peer.last_heard) peer.last_heard = now;
-    return true;
+    if (address.empty() || peer.address != address) continue;
+    if (peer.lives()) {
+      if (peer.last_heard) peer.last_heard = now;
+      return Heard::kMember;
+    }
+    if (peer.role == proto::DISPLAY && display() != nullptr) return Heard::kStranger;
+    peer.phase = Phase::kJoining;
+    peer.state_hash.clear();
+    peer.last_heard = now;
+    return Heard::kBack;
   }
-  return false;
+  return Heard::kStranger;
 }
 
 void Membership::holds(const std::string& address, const std::string& state_hash, bool known) {
@@ -85,7 +92,8 @@ void Membership::holds(const std::string& address, const std::string& state_hash
 std::optional<std::string> Membership::leave(const std::string& address) {
   for (auto& [name, peer] : peers_) {
     if (peer.address != address || !peer.lives()) continue;
-    put_out(peer);
+    peer.phase = Phase::kOut;
+    peer.address.clear();
     return name;
   }
   return std::nullopt;
@@ -95,15 +103,10 @@ std::vector<std::string> Membership::expire(Clock::time_point now) {
   std::vector<std::string> gone;
   for (auto& [name, peer] : peers_) {
     if (!peer.lives() || !peer.last_heard || now - *peer.last_heard <= rules_.patience) continue;
-    put_out(peer);
+    peer.phase = Phase::kOut;
     gone.push_back(name);
   }
   return gone;
-}
-
-void Membership::put_out(Peer& peer) {
-  peer.phase = Phase::kOut;
-  peer.address.clear();
 }
 
 const Peer* Membership::find(const std::string& name) const {

@@ -27,7 +27,7 @@ struct Peer {
   proto::Role role = proto::NODE;
   std::string name;
   Phase phase = Phase::kAbsent;
-  std::string address;  // of the control channel; empty unless joining or ready
+  std::string address;  // of the control channel; empty where it is absent or has left
   std::string state_hash;
   std::string images_endpoint;  // of a display
   std::uint64_t process = 0;
@@ -54,8 +54,10 @@ class Membership {
   // The peer has been sent its Welcome: from now on it has to be heard.
   void welcomed(const std::string& name, Clock::time_point now);
 
-  // Something came from this address; false where no living peer is there (it has to join again).
-  bool heard(const std::string& address, Clock::time_point now);
+  // Something came from this address. A peer that was put out for its silence is back by that (as joining: it has
+  // missed updates).
+  enum class Heard { kStranger, kMember, kBack };
+  Heard heard(const std::string& address, Clock::time_point now);
 
   // The peer at `address` holds the state of this hash (empty: none yet). `known`: the hash is one of ours.
   void holds(const std::string& address, const std::string& state_hash, bool known);
@@ -74,7 +76,6 @@ class Membership {
 
  private:
   Status check(const proto::Join& join, const std::string& address) const;
-  void put_out(Peer& peer);
 
   Rules rules_;
   std::map<std::string, Peer> peers_;  // by name

@@ -76,8 +76,9 @@ Status Daemon::run(StopSignals& signals) {
 
 void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
   const proto::Envelope& envelope = message.envelope;
-  members_.heard(message.peer, now);
+  const Membership::Heard heard = members_.heard(message.peer, now);
   const Peer* peer = members_.at(message.peer);
+  if (heard == Membership::Heard::kBack) peer_is_back(*peer);
   switch (envelope.body_case()) {
     case proto::Envelope::kJoin:
       return take_join(message, now);

@@ -64,6 +64,7 @@ class Daemon {
   void take_heartbeat(const wire::Message& message);
   void welcome(const Peer& peer, Clock::time_point now);
   void peer_is_gone(const std::string& name, const char* why);
+  void peer_is_back(const Peer& peer);
   void send_snapshot(const std::string& address);
   void publish_images_endpoint();
   std::string images_endpoint() const;

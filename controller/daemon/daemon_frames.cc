@@ -66,7 +66,7 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   if (!asked_) return;
   const std::uint64_t end = asked_->first + asked_->count;
   const bool swapped = log_.last_swapped() && *log_.last_swapped() + 1 >= end;
-  const bool shown = log_.last_shown() && *log_.last_shown() + 1 >= end;
+  const bool shown = swapped && log_.all_shown(asked_->first, asked_->count);
   // A display that died, or that lost images to a deadline, will not show the frame.
   const Clock::duration patience = 6 * options_.deployment.pacing.heartbeat;
   const bool may_drop = options_.deployment.pacing.deadline.count() > 0;

@@ -27,7 +27,7 @@ void Daemon::take_heartbeat(const wire::Message& message) {
   const Peer* peer = members_.at(message.peer);
   if (peer == nullptr) {
     proto::Envelope refused;
-    refused.mutable_refused()->set_reason("not a member of this cluster (any more): join again");
+    refused.mutable_refused()->set_reason("not a member of this cluster");
     return send(message.peer, refused);
   }
   const std::string& hash = message.envelope.heartbeat().state_hash();
@@ -45,6 +45,8 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
   *welcome.mutable_display() = write_calibration(deployment.display);
   if (peer.role == proto::NODE) {
     for (const std::uint32_t module : assignment_.at(peer.name)) welcome.add_modules(module);
+  } else {
+    for (const std::uint32_t module : modules_without(assignment_, {})) welcome.add_modules(module);
   }
   welcome.set_images_endpoint(images_endpoint());
   welcome.set_heartbeat_ms(static_cast<std::uint32_t>(deployment.pacing.heartbeat.count()));
@@ -61,6 +63,12 @@ void Daemon::peer_is_gone(const std::string& name, const char* why) {
   barrier_.gone(name);
   late_.erase(name);
   if (members_.find(name)->role == proto::DISPLAY) publish_images_endpoint();
+}
+
+void Daemon::peer_is_back(const Peer& peer) {
+  log::info("\"{}\" is heard again", peer.name);
+  if (stage_.has_scene()) send_snapshot(peer.address);
+  if (peer.role == proto::DISPLAY) publish_images_endpoint();
 }
 
 void Daemon::send_snapshot(const std::string& address) {

@@ -14,7 +14,7 @@ struct Arguments {
   std::string deployment;
   std::string scene, display;
   std::vector<double> roi;
-  std::string plan;
+  std::string plan, sink;
   bool no_ao = false;
   bool print_endpoint = false;
   std::string log_level = "info";
@@ -31,6 +31,8 @@ void add_options(CLI::App& app, Arguments& a) {
       ->expected(6);
   app.add_option("--plan", a.plan, "\"everything\": leave nothing out; \"needed\": what the deployment says")
       ->check(CLI::IsMember({"everything", "needed"}));
+  app.add_option("--sink", a.sink, "Where finished images go: display, files or none, instead of the deployment's")
+      ->check(CLI::IsMember({"display", "files", "none"}));
   app.add_flag("--no-ao", a.no_ao, "Without ambient occlusion");
   app.add_option("--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)")
       ->delimiter(',');
@@ -57,6 +59,9 @@ Result<Deployment> read_deployment(const Arguments& a) {
     set_vector(*roi.mutable_world_size(), a.roi[3], a.roi[4], a.roi[5]);
   }
   if (a.plan == "everything") deployment.message.mutable_render()->set_planner(proto::RenderSettings::EVERYTHING);
+  if (a.sink == "display") deployment.message.set_sink(proto::Deployment::DISPLAY);
+  if (a.sink == "files") deployment.message.set_sink(proto::Deployment::FILES);
+  if (a.sink == "none") deployment.message.set_sink(proto::Deployment::NONE);
   if (a.no_ao) deployment.message.mutable_render()->mutable_ao()->set_enabled(false);
   return deployment;
 }

@@ -33,7 +33,10 @@ TEST(FrameLog, ReportsOneFrame) {
   log.reported(0, node);
   log.swapped({.frame = 0, .ready = {"left"}, .missing = {"right"}, .late = true, .begun = kStart}, {4, 5},
               kStart + 20ms);
+  EXPECT_FALSE(log.all_shown(0, 1));
   log.shown(0, kStart + 30ms);
+  EXPECT_TRUE(log.all_shown(0, 1));
+  EXPECT_FALSE(log.all_shown(0, 2));
   const auto reports = log.reports(0, 5);
   ASSERT_EQ(reports.size(), 1u);
   EXPECT_EQ(reports[0].state_hash(), "h");

@@ -79,7 +79,7 @@ TEST(Membership, TakesTheSameProcessFromANewAddress) {
   ASSERT_TRUE(members.join(join_of("left", 11), "A"));
   ASSERT_TRUE(members.join(join_of("left", 11), "B"));
   EXPECT_EQ(members.find("left")->address, "B");
-  EXPECT_FALSE(members.heard("A", kStart));
+  EXPECT_EQ(members.heard("A", kStart), Membership::Heard::kStranger);
 }
 
 TEST(Membership, PutsOutTheSilentAndTakesThemBack) {
@@ -89,13 +89,37 @@ TEST(Membership, PutsOutTheSilentAndTakesThemBack) {
     members.welcomed(name, kStart);
     members.holds(address, "h", true);
   }
-  EXPECT_TRUE(members.heard("A", kStart + 2s));
+  EXPECT_EQ(members.heard("A", kStart + 2s), Membership::Heard::kMember);
   EXPECT_THAT(members.expire(kStart + 3s), IsEmpty());
   EXPECT_THAT(members.expire(kStart + 4s), ElementsAre("right"));
   EXPECT_THAT(members.expire(kStart + 4s), IsEmpty());
-  EXPECT_FALSE(members.heard("B", kStart + 4s));
+  EXPECT_EQ(members.find("right")->phase, Phase::kOut);
   ASSERT_TRUE(members.join(join_of("right", 12), "C"));
   EXPECT_EQ(members.find("right")->phase, Phase::kJoining);
+}
+
+TEST(Membership, TakesBackWhoWasSilentAndSpeaksAgain) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left"), "A"));
+  members.welcomed("left", kStart);
+  members.holds("A", "h", true);
+  ASSERT_THAT(members.expire(kStart + 4s), ElementsAre("left"));
+  EXPECT_EQ(members.heard("A", kStart + 5s), Membership::Heard::kBack);
+  EXPECT_EQ(members.find("left")->phase, Phase::kJoining);
+  EXPECT_EQ(members.heard("A", kStart + 5s), Membership::Heard::kMember);
+  EXPECT_THAT(members.expire(kStart + 6s), IsEmpty());
+}
+
+TEST(Membership, DoesNotTakeBackWhoLeftOrWasReplaced) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left", 11), "A"));
+  ASSERT_TRUE(members.leave("A"));
+  EXPECT_EQ(members.heard("A", kStart), Membership::Heard::kStranger);
+  ASSERT_TRUE(members.join(join_of("left", 12), "B"));
+  members.welcomed("left", kStart);
+  ASSERT_THAT(members.expire(kStart + 4s), ElementsAre("left"));
+  ASSERT_TRUE(members.join(join_of("left", 13), "C"));
+  EXPECT_EQ(members.heard("B", kStart + 4s), Membership::Heard::kStranger);
 }
 
 TEST(Membership, DoesNotExpectToHearWhoWaitsForItsWelcome) {
