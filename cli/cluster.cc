@@ -33,7 +33,7 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   std::vector<std::string> command{program("lfd-controller"), options.deployment, "--print-endpoint"};
   add_option(command, "--scene", options.scene);
   add_option(command, "--display", options.display);
-  add_option(command, "--roi", options.roi);
+  if (!options.roi.empty()) command.push_back("--roi=" + options.roi);  // it may begin with a minus
   add_option(command, "--plan", options.plan);
   add_option(command, "--only-modules", fmt::format("{}", fmt::join(options.modules, ",")));
   add_option(command, "--log-level", options.log_level);

@@ -22,20 +22,21 @@ struct ClusterOptions {
   std::string plan;                  // "everything", "needed" or empty
   std::vector<std::string> modules;  // numbers and ranges of those that are drawn at all; empty: all
   bool no_ao = false;
-  bool idle = false;                     // no frame until frames are asked for
-  std::filesystem::path images;          // where the display writes every frame; empty: nowhere
+  bool idle = false;             // no frame until frames are asked for
+  std::filesystem::path images;  // where the display writes every frame; empty: nowhere
   std::string log_level = "info";
-  bool quiet = false;                    // the lines of the children are not printed, only kept
+  bool quiet = false;  // the lines of the children are not printed, only kept
 };
 
 class Cluster {
  public:
-  // Starts every process; they find each other in their own time. Lines of the children are printed on standard error with their
-  // names. Errors: the deployment file, a program that is missing, a port that is taken (named with its owner).
+  // Starts every process; they find each other in their own time. Lines of the children are printed on standard error
+  // with their names. Errors: the deployment file, a program that is missing, a port that is taken (named with its
+  // owner).
   static Result<Cluster> start(const ClusterOptions& options);
 
   const Deployment& deployment() const { return deployment_; }
-  const std::string& endpoint() const { return endpoint_; }  // of the controller
+  const std::string& endpoint() const { return endpoint_; }     // of the controller
   const std::vector<int>& modules() const { return modules_; }  // that are drawn, ascending
 
   // Waits until a child ends, a signal comes or `at_most` has passed.

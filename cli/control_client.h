@@ -16,7 +16,8 @@ class ControlClient {
   // Errors: the endpoint cannot be read.
   static Result<ControlClient> connect(const std::string& endpoint);
 
-  // Sends a request, once the controller is there; its number is filled in and returned. Errors: nobody is there in time.
+  // Sends a request, once the controller is there; its number is filled in and returned. Errors: nobody is there in
+  // time.
   Result<std::uint64_t> send(proto::Request request, Clock::duration at_most);
 
   // The reply to request `id`; absent where none has come in time. Replies to others are left out.

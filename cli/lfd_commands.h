@@ -1,0 +1,38 @@
+// The subcommands of `lfd`, and the options that several of them share.
+#pragma once
+
+#include "cli/cluster.h"
+#include "cli/command_line.h"
+#include "proto/wire.pb.h"
+
+namespace lfd {
+
+void add_run_command(CLI::App& app, int& exit_code, StopSignals& signals);
+void add_render_command(CLI::App& app, int& exit_code, StopSignals& signals);
+void add_view_command(CLI::App& app, int& exit_code, StopSignals& signals);
+void add_ctl_command(CLI::App& app, int& exit_code);
+
+// DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --module, --log-level.
+void add_cluster_options(CLI::App& command, ClusterOptions& options);
+
+struct RenderOptions {
+  ClusterOptions cluster;  // its images folder is the output folder
+  std::uint32_t frames = 1;
+  std::uint32_t buffers = 0;  // bit i: buffer kind i beside colour
+  bool time_modules = false;
+};
+
+// Starts a cluster, has it draw frames into the output folder, writes report.json there, and ends the cluster. Errors:
+// whatever failed; images that are missing; a signal.
+Status render(const RenderOptions& options, StopSignals& signals);
+
+// "color,position,..." as the bits of RenderOptions::buffers. Errors name the one that is unknown and what was meant.
+Result<std::uint32_t> parse_buffers(const std::vector<std::string>& names);
+
+// The image file's name: module-000.color.png, module-000.position.exr.
+std::string image_name(int module, proto::BufferKind buffer);
+
+// The folder of one frame: FOLDER/frame-0000.
+std::filesystem::path frame_folder(const std::filesystem::path& folder, std::uint64_t frame);
+
+}  // namespace lfd

@@ -1,0 +1,191 @@
+// lfd ctl: looks at a running cluster and changes what it shows.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "base/log.h"
+#include "cli/control_client.h"
+#include "cli/lfd_commands.h"
+#include "cli/runtime_file.h"
+#include "cli/status_table.h"
+
+namespace lfd {
+namespace {
+
+constexpr auto kAnswerPatience = std::chrono::seconds(5);
+constexpr auto kLoadPatience = std::chrono::minutes(10);  // of a scene
+
+// The command line of `lfd ctl`; those of its subcommands fill in what they need.
+struct Arguments {
+  std::string controller;  // empty: the only one that runs
+  std::vector<double> roi;
+  std::vector<double> physical_roi;
+  bool whole = false;
+  std::string scene;
+  std::optional<bool> ao_enabled, ao_blur, ao_symmetric;
+  std::optional<double> ao_radius_m, ao_shell, ao_sigma_px;
+  std::optional<int> ao_samples, ao_radii;
+  std::string ao_generator, ao_target;
+};
+
+Result<ControlClient> connect(const Arguments& arguments) {
+  if (!arguments.controller.empty()) return ControlClient::connect(arguments.controller);
+  LFD_TRY(const std::string endpoint, only_running_endpoint());
+  return ControlClient::connect(endpoint);
+}
+
+Result<proto::Reply> ask(const Arguments& arguments, const proto::Request& request,
+                         Clock::duration patience = kAnswerPatience) {
+  LFD_TRY(ControlClient client, connect(arguments));
+  return client.ask(request, patience);
+}
+
+Result<proto::Status> ask_status(const Arguments& arguments) {
+  proto::Request request;
+  request.mutable_status();
+  LFD_TRY(const proto::Reply reply, ask(arguments, request));
+  return reply.status();
+}
+
+Status print_status(const Arguments& arguments) {
+  LFD_TRY(const proto::Status status, ask_status(arguments));
+  std::cout << status_table(status);
+  return {};
+}
+
+void set_box(proto::Vector& centre, proto::Vector& size, const std::vector<double>& numbers) {
+  centre.set_x(numbers[0]);
+  centre.set_y(numbers[1]);
+  centre.set_z(numbers[2]);
+  size.set_x(numbers[3]);
+  size.set_y(numbers[4]);
+  size.set_z(numbers[5]);
+}
+
+Status change_roi(const Arguments& arguments) {
+  if (arguments.roi.empty() && arguments.physical_roi.empty() && !arguments.whole) {
+    LFD_TRY(const proto::Status status, ask_status(arguments));
+    std::cout << roi_text(status.roi());
+    return {};
+  }
+  proto::Request request;
+  proto::RegionOfInterest& roi = *request.mutable_roi();
+  if (!arguments.roi.empty()) set_box(*roi.mutable_world_centre(), *roi.mutable_world_size(), arguments.roi);
+  if (!arguments.physical_roi.empty()) {
+    set_box(*roi.mutable_physical_centre(), *roi.mutable_physical_size(), arguments.physical_roi);
+  }
+  LFD_TRY(const proto::Reply reply, ask(arguments, request));
+  return {};
+}
+
+template <class Enumeration>
+Result<Enumeration> parse_name(const char* option, const std::string& text,
+                               const std::vector<std::pair<std::string, Enumeration>>& names) {
+  std::vector<std::string> known;
+  for (const auto& [name, value] : names) {
+    if (name == text) return value;
+    known.push_back(name);
+  }
+  return Error(fmt::format("{}: \"{}\"; {} are possible", option, text, fmt::join(known, ", ")));
+}
+
+// The numbers given replace those in `ao`; the others stay.
+Status merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
+  using Ao = proto::AmbientOcclusion;
+  if (arguments.ao_enabled) ao.set_enabled(*arguments.ao_enabled);
+  if (arguments.ao_radius_m) ao.set_radius_m(*arguments.ao_radius_m);
+  if (arguments.ao_shell) ao.set_shell(*arguments.ao_shell);
+  if (arguments.ao_samples) ao.set_samples(*arguments.ao_samples);
+  if (arguments.ao_radii) ao.set_radii(*arguments.ao_radii);
+  if (arguments.ao_symmetric) ao.set_point_symmetric(*arguments.ao_symmetric);
+  if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
+  if (arguments.ao_sigma_px) ao.mutable_blur()->set_sigma_px(*arguments.ao_sigma_px);
+  if (!arguments.ao_generator.empty()) {
+    LFD_TRY(const auto generator, parse_name<Ao::Generator>("--generator", arguments.ao_generator,
+                                                            {{"poisson-disk", Ao::POISSON_DISK},
+                                                             {"uniform", Ao::UNIFORM},
+                                                             {"jittered", Ao::JITTERED},
+                                                             {"latin-square", Ao::LATIN_SQUARE}}));
+    ao.set_generator(generator);
+  }
+  if (!arguments.ao_target.empty()) {
+    LFD_TRY(const auto target,
+            parse_name<Ao::Target>("--target", arguments.ao_target,
+                                   {{"ambient-light", Ao::AMBIENT_LIGHT}, {"whole-color", Ao::WHOLE_COLOR}}));
+    ao.set_target(target);
+  }
+  return {};
+}
+
+Status change_ao(const Arguments& arguments) {
+  LFD_TRY(const proto::Status status, ask_status(arguments));
+  proto::Request request;
+  *request.mutable_ao() = status.render().ao();
+  LFD_TRY_STATUS(merge_ao(arguments, *request.mutable_ao()));
+  LFD_TRY(const proto::Reply reply, ask(arguments, request));
+  return {};
+}
+
+Status change_scene(const Arguments& arguments) {
+  std::error_code failure;
+  proto::Request request;
+  request.set_scene_file(std::filesystem::absolute(arguments.scene, failure).string());
+  LFD_TRY(const proto::Reply reply, ask(arguments, request, kLoadPatience));
+  return {};
+}
+
+Status quit(const Arguments& arguments) {
+  proto::Request request;
+  request.mutable_quit();
+  LFD_TRY(const proto::Reply reply, ask(arguments, request));
+  return {};
+}
+
+void add_ao_options(CLI::App& command, Arguments& a) {
+  command.add_flag("--on,!--off", a.ao_enabled, "Switch it");
+  command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)");
+  command.add_option("--samples", a.ao_samples, "Samples per radius, 1 to 256");
+  command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...), 1 to 8");
+  command.add_option("--shell", a.ao_shell, "Inner radius of the shell of samples over the outer one, 0 to 1");
+  command.add_option("--generator", a.ao_generator, "poisson-disk, uniform, jittered or latin-square");
+  command.add_option("--target", a.ao_target, "ambient-light or whole-color");
+  command.add_flag("--symmetric,!--no-symmetric", a.ao_symmetric, "Samples in pairs that mirror each other");
+  command.add_flag("--blur,!--no-blur", a.ao_blur, "Blur what was sampled");
+  command.add_option("--sigma", a.ao_sigma_px, "Of the blur, pixels");
+}
+
+}  // namespace
+
+void add_ctl_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  CLI::App* ctl = app.add_subcommand("ctl", "Look at a running cluster, or change what it shows");
+  ctl->require_subcommand(1);
+  ctl->add_option("--controller", a.controller,
+                  "Control endpoint (default: the only cluster that `lfd run` runs here)");
+  const auto add = [&](const char* name, const char* description, Status (*what)(const Arguments&)) {
+    CLI::App* command = add_command(*ctl, name, description, exit_code, [arguments, what] {
+      const Status done = what(*arguments);
+      return done ? kExitDone : fail(done.error());
+    });
+    command->fallthrough();  // --controller may stand behind the subcommand too
+    return command;
+  };
+  add("status", "Print what is shown, and who takes part", print_status);
+  CLI::App* roi = add("roi", "Change the region of interest, or print it", change_roi);
+  roi->add_option("WORLD", a.roi, "cx,cy,cz,sx,sy,sz: centre and edge lengths in the world, metres")
+      ->delimiter(',')
+      ->expected(6);
+  roi->add_option("--physical", a.physical_roi, "The same box in physical space (default: fitted to the screen)")
+      ->delimiter(',')
+      ->expected(6);
+  roi->add_flag("--whole", a.whole, "Show the whole scene");
+  add_ao_options(*add("ao", "Change ambient occlusion; what is not given stays", change_ao), a);
+  add("scene", "Show another scene; if it cannot be loaded the old one stays", change_scene)
+      ->add_option("FILE", a.scene, "glTF file, as the controller's machine sees it")
+      ->required();
+  add("quit", "End the cluster", quit);
+}
+
+}  // namespace lfd

@@ -1,0 +1,60 @@
+// Options that several subcommands of `lfd` share.
+#include <algorithm>
+
+#include "base/log.h"
+#include "base/suggest.h"
+#include "cli/lfd_commands.h"
+
+namespace lfd {
+namespace {
+
+const std::vector<std::string>& buffer_names() {
+  static const std::vector<std::string> names{"color", "position", "normal", "ao",
+                                              "depth"};  // in the order of BufferKind
+  return names;
+}
+
+}  // namespace
+
+void add_cluster_options(CLI::App& command, ClusterOptions& options) {
+  command.add_option("DEPLOYMENT", options.deployment, "Deployment file (*.textproto)")->required();
+  command.add_option("--scene", options.scene, "Show this glTF file instead of the deployment's scene");
+  command.add_option("--display", options.display, "Use this calibration file instead of the deployment's");
+  command.add_option("--roi", options.roi,
+                     "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)");
+  command
+      .add_option("--plan", options.plan,
+                  "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need")
+      ->check(CLI::IsMember({"everything", "needed"}));
+  command.add_flag("--no-ao", options.no_ao, "Without ambient occlusion");
+  command.add_option("--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)")
+      ->delimiter(',');
+  command.add_option("--log-level", options.log_level, "Of all processes: trace, debug, info, warn, error or off")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->capture_default_str();
+}
+
+Result<std::uint32_t> parse_buffers(const std::vector<std::string>& names) {
+  std::uint32_t bits = 0;
+  for (const std::string& name : names) {
+    const auto known = std::ranges::find(buffer_names(), name);
+    if (known == buffer_names().end()) {
+      const auto meant = closest(name, buffer_names());
+      return Error(
+          fmt::format("--buffers: unknown buffer {}{}", name, meant ? fmt::format("; did you mean {}?", *meant) : ""));
+    }
+    bits |= 1u << std::distance(buffer_names().begin(), known);
+  }
+  return bits;
+}
+
+std::string image_name(int module, proto::BufferKind buffer) {
+  return fmt::format("module-{:03}.{}.{}", module, buffer_names()[static_cast<std::size_t>(buffer)],
+                     buffer == proto::COLOR ? "png" : "exr");
+}
+
+std::filesystem::path frame_folder(const std::filesystem::path& folder, std::uint64_t frame) {
+  return folder / fmt::format("frame-{:04}", frame);
+}
+
+}  // namespace lfd

@@ -1,0 +1,146 @@
+// lfd render: draws frames into files, reports, and leaves.
+#include <iostream>
+#include <memory>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "cli/control_client.h"
+#include "cli/lfd_commands.h"
+#include "cli/report.h"
+
+namespace lfd {
+namespace {
+
+constexpr auto kAnswerPatience = std::chrono::seconds(10);
+constexpr auto kLook = std::chrono::milliseconds(100);  // between looks at signals and children
+constexpr auto kProgress = std::chrono::seconds(2);     // between lines of progress
+constexpr auto kWriteOut = std::chrono::seconds(30);    // for the display to end after the last frame
+
+proto::Request frames_request(const RenderOptions& options) {
+  proto::Request request;
+  request.mutable_frames()->set_count(options.frames);
+  request.mutable_frames()->set_buffers(options.buffers);
+  request.mutable_frames()->set_time_modules(options.time_modules);
+  return request;
+}
+
+Result<proto::Status> ask_status(ControlClient& client) {
+  proto::Request request;
+  request.mutable_status();
+  LFD_TRY(const proto::Reply reply, client.ask(request, kAnswerPatience));
+  return reply.status();
+}
+
+std::string progress(const proto::Status& status, std::uint32_t frames) {
+  if (status.sequence() == 0) return "the scene is being loaded";
+  std::string waiting;
+  for (const proto::PeerStatus& peer : status.peer()) {
+    if (peer.state() != "ready" && peer.module_size() > 0)
+      waiting += fmt::format(" {} ({})", peer.name(), peer.state());
+  }
+  if (!waiting.empty()) return "waiting for:" + waiting;
+  return fmt::format("frame {} of {}", status.frame(), frames);
+}
+
+// Waits for the reply to the frames request, while it watches the children and the signals.
+Result<proto::Reply> await_frames(const RenderOptions& options, Cluster& cluster, ControlClient& client,
+                                  ControlClient& watcher, StopSignals& signals) {
+  LFD_TRY(const std::uint64_t id, client.send(frames_request(options), kAnswerPatience));
+  auto next_progress = Clock::now() + kProgress;
+  std::string last;
+  while (true) {
+    if (auto reply = client.receive(id, kLook)) {
+      if (!reply->error().empty()) return Error(reply->error());
+      return *std::move(reply);
+    }
+    if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
+    if (const auto ended = cluster.ended()) return Error(*ended);
+    if (Clock::now() < next_progress) continue;
+    next_progress = Clock::now() + kProgress;
+    const auto status = ask_status(watcher);
+    if (!status) continue;  // a child that ended is seen in the next round
+    const std::string line = progress(*status, options.frames);
+    if (line != last) std::cerr << line << std::endl;
+    last = line;
+  }
+}
+
+Status check_images(const RenderOptions& options, const Cluster& cluster,
+                    const std::vector<proto::FrameReport>& frames) {
+  std::string missing;
+  int count = 0;
+  for (const proto::FrameReport& frame : frames) {
+    const auto folder = frame_folder(options.cluster.images, frame.frame());
+    for (const int module : cluster.modules()) {
+      for (int buffer = proto::BufferKind_MIN; buffer <= proto::BufferKind_MAX; ++buffer) {
+        const bool wanted = buffer == proto::COLOR || (options.buffers >> buffer & 1u) != 0;
+        const auto path = folder / image_name(module, static_cast<proto::BufferKind>(buffer));
+        if (!wanted || std::filesystem::exists(path)) continue;
+        if (count++ == 0) missing = path.string();
+      }
+    }
+    if (frame.stale_module_size() > 0) {
+      return Error(fmt::format("frame {}: {} modules are stale", frame.frame(), frame.stale_module_size()));
+    }
+  }
+  if (frames.size() != options.frames) return Error(fmt::format("{} of {} frames", frames.size(), options.frames));
+  if (count > 0) return Error(fmt::format("{} images are missing, the first is {}", count, missing));
+  return {};
+}
+
+Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals) {
+  LFD_TRY(ControlClient client, ControlClient::connect(cluster.endpoint()));
+  LFD_TRY(ControlClient watcher, ControlClient::connect(cluster.endpoint()));
+  LFD_TRY(const proto::Reply reply, await_frames(options, cluster, client, watcher, signals));
+  LFD_TRY(const proto::Status status, ask_status(watcher));
+  const std::vector<proto::FrameReport> frames(reply.frame().begin(), reply.frame().end());
+  LFD_TRY_STATUS(
+      write_file(options.cluster.images / "report.json", report_json(cluster.deployment(), status.scene(), frames)));
+  proto::Request quit;
+  quit.mutable_quit();
+  LFD_TRY(const proto::Reply goodbye, client.ask(quit, kAnswerPatience));
+  LFD_TRY_STATUS(cluster.finish(kWriteOut));
+  std::cerr << time_table(frames);
+  return check_images(options, cluster, frames);
+}
+
+}  // namespace
+
+Status render(const RenderOptions& options, StopSignals& signals) {
+  ClusterOptions cluster_options = options.cluster;
+  cluster_options.idle = true;
+  LFD_TRY(Cluster cluster, Cluster::start(cluster_options));
+  const Status done = draw(options, cluster, signals);
+  cluster.stop(kStopPatience);
+  return done;
+}
+
+void add_render_command(CLI::App& app, int& exit_code, StopSignals& signals) {
+  struct Arguments {
+    RenderOptions options;
+    std::vector<std::string> buffers;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(app, "render", "Render frames to files and leave", exit_code, [arguments, &signals] {
+    const auto buffers = parse_buffers(arguments->buffers);
+    if (!buffers) return wrong_use(buffers.error());
+    arguments->options.buffers = *buffers;
+    const Status done = render(arguments->options, signals);
+    if (!done) return fail(done.error());
+    std::cout << fmt::format("{} frames in {}\n", arguments->options.frames,
+                             arguments->options.cluster.images.string());
+    return kExitDone;
+  });
+  RenderOptions& options = arguments->options;
+  add_cluster_options(*command, options.cluster);
+  command->add_option("--frames", options.frames, "How many frames")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--out", options.cluster.images, "Folder for images and report.json")->required();
+  command
+      ->add_option("--buffers", arguments->buffers, "color,position,normal,ao,depth: what is written (color always is)")
+      ->delimiter(',');
+  command->add_flag("--time-modules", options.time_modules, "Report times for each module by itself (slower)");
+}
+
+}  // namespace lfd

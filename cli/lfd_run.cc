@@ -1,0 +1,50 @@
+// lfd run: keeps a cluster running until Ctrl-C.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/log.h"
+#include "cli/lfd_commands.h"
+#include "cli/runtime_file.h"
+
+namespace lfd {
+namespace {
+
+constexpr auto kLong = std::chrono::hours(1);  // to wait at a time
+
+Status run(const ClusterOptions& options, StopSignals& signals) {
+  LFD_TRY(Cluster cluster, Cluster::start(options));
+  std::error_code failure;
+  const auto full_path = std::filesystem::absolute(options.deployment, failure);
+  LFD_TRY(const RuntimeFile file, RuntimeFile::write(cluster.endpoint(), full_path.string()));
+  std::cout << fmt::format("running {}: control {}\n", options.deployment.string(), cluster.endpoint()) << std::flush;
+  while (true) {
+    cluster.wait(signals, kLong);
+    if (const auto signal = signals.take()) {
+      log::info("signal {}: all processes are ended", *signal);
+      cluster.stop(kStopPatience);
+      return {};
+    }
+    if (const auto ended = cluster.ended()) {
+      // After a client's quit all of them end by themselves, and well.
+      const Status finished = cluster.finish(kStopPatience);
+      cluster.stop(kStopPatience);
+      if (finished) return {};
+      return Error(*ended);
+    }
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code, StopSignals& signals) {
+  auto options = std::make_shared<ClusterOptions>();
+  CLI::App* command =
+      add_command(app, "run", "Run a whole cluster on this machine until Ctrl-C", exit_code, [options, &signals] {
+        const Status done = run(*options, signals);
+        return done ? kExitDone : fail(done.error());
+      });
+  add_cluster_options(*command, *options);
+}
+
+}  // namespace lfd

@@ -1,0 +1,90 @@
+// lfd view: what a viewer in front of the display sees.
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/log.h"
+#include "cli/lfd_commands.h"
+
+namespace lfd {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr auto kViewPatience = std::chrono::minutes(10);
+
+struct Arguments {
+  ClusterOptions cluster;
+  std::string eye;  // X,Y,Z
+  std::string out;
+  std::string frames;  // folder of lfd render; empty: one frame is rendered
+};
+
+// A folder that goes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("lfd-view-{}", ::getpid())) {}
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// Lets lfd-display make the picture from a frame's folder.
+Status look(const Arguments& arguments, const fs::path& frame, StopSignals& signals) {
+  DeploymentOverrides overrides;
+  if (!arguments.cluster.display.empty()) overrides.display = arguments.cluster.display;
+  if (!arguments.cluster.scene.empty()) overrides.scene = arguments.cluster.scene;
+  LFD_TRY(const Deployment deployment, load_deployment(arguments.cluster.deployment, overrides));
+  Process::Options options{.name = "view",
+                           .command = {own_folder() / "lfd-display", "view", "--frames-dir", frame, "--display",
+                                       deployment.display_file, "--eye=" + arguments.eye, "--out", arguments.out},
+                           .on_line = [](std::string_view line) { std::cerr << line << std::endl; },
+                           .environment = {}};
+  LFD_TRY(const auto process, Process::start(std::move(options)));
+  const auto deadline = Clock::now() + kViewPatience;
+  while (Clock::now() < deadline) {
+    if (const auto exit = process->wait(std::chrono::milliseconds(50))) {
+      return exit->succeeded() ? Status() : Status(Error("lfd-display view: " + exit->text()));
+    }
+    if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
+  }
+  return Error("lfd-display view: does not end");
+}
+
+Status view(const Arguments& arguments, StopSignals& signals) {
+  if (!arguments.frames.empty()) {
+    const fs::path first = frame_folder(arguments.frames, 0);
+    return look(arguments, fs::is_directory(first) ? first : fs::path(arguments.frames), signals);
+  }
+  const TemporaryFolder folder;
+  RenderOptions render_options;
+  render_options.cluster = arguments.cluster;
+  render_options.cluster.images = folder.path();
+  LFD_TRY_STATUS(render(render_options, signals));
+  return look(arguments, frame_folder(folder.path(), 0), signals);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& exit_code, StopSignals& signals) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(app, "view", "Write what a viewer at a place sees", exit_code, [arguments, &signals] {
+    const Status done = view(*arguments, signals);
+    return done ? kExitDone : fail(done.error());
+  });
+  add_cluster_options(*command, arguments->cluster);
+  command->add_option("--eye", arguments->eye, "X,Y,Z of the eye in physical metres (z: distance from the screen)")
+      ->required();
+  command->add_option("--out", arguments->out, "PNG file to write")->required();
+  command->add_option("--frames-dir", arguments->frames, "Use images that `lfd render` wrote to this folder");
+}
+
+}  // namespace lfd

@@ -1,0 +1,20 @@
+// What was drawn, as the report.json beside the images: geometry, times, what was left out, hashes, versions.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/deployment_file.h"
+#include "proto/wire.pb.h"
+
+namespace lfd {
+
+// Numbers have as many digits as it takes to read the same doubles back.
+std::string report_json(const Deployment& deployment, const std::string& scene,
+                        const std::vector<proto::FrameReport>& frames);
+
+// Where the time went: mean milliseconds of a frame by node and pass, one line each, for people.
+std::string time_table(const std::vector<proto::FrameReport>& frames);
+
+}  // namespace lfd

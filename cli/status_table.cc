@@ -1,0 +1,55 @@
+// Printing of status.
+#include "cli/status_table.h"
+
+#include "base/log.h"
+
+namespace lfd {
+namespace {
+
+std::string vector_text(const proto::Vector& v) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x(), v.y(), v.z()); }
+
+}  // namespace
+
+std::string ranges_text(const google::protobuf::RepeatedField<std::uint32_t>& numbers) {
+  std::string text;
+  for (int first = 0; first < numbers.size();) {
+    int last = first;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    if (!text.empty()) text += ",";
+    text += last == first ? fmt::format("{}", numbers[first]) : fmt::format("{}-{}", numbers[first], numbers[last]);
+    first = last + 1;
+  }
+  return text;
+}
+
+std::string roi_text(const proto::RegionOfInterest& roi) {
+  return fmt::format("world     centre {}  size {}\nphysical  centre {}  size {}\n", vector_text(roi.world_centre()),
+                     vector_text(roi.world_size()), vector_text(roi.physical_centre()),
+                     vector_text(roi.physical_size()));
+}
+
+std::string status_table(const proto::Status& status) {
+  std::string table;
+  const auto line = [&](const char* name, const std::string& value) {
+    table += fmt::format("{:<18}{}\n", name, value);
+  };
+  line("deployment", status.deployment());
+  line("scene", status.scene());
+  line("frame", std::to_string(status.frame()));
+  line("frames per second", fmt::format("{:.2f}", status.frames_per_second()));
+  line("late frames", std::to_string(status.late_frames()));
+  line("stale modules", std::to_string(status.stale_modules()));
+  line("state", fmt::format("{} (update {})", status.state_hash(), status.sequence()));
+  line("occlusion", status.render().ao().has_enabled() && !status.render().ao().enabled() ? "off" : "on");
+  table += roi_text(status.roi());
+  table += fmt::format("\n{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", "peer", "role", "state", "process", "state hash",
+                       "modules");
+  for (const proto::PeerStatus& peer : status.peer()) {
+    table += fmt::format("{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", peer.name(),
+                         peer.role() == proto::NODE ? "node" : "display", peer.state(), peer.process(),
+                         peer.state_hash(), ranges_text(peer.module()));
+  }
+  return table;
+}
+
+}  // namespace lfd

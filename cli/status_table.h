@@ -1,0 +1,18 @@
+// A controller's status as text for people.
+#pragma once
+
+#include <string>
+
+#include "proto/wire.pb.h"
+
+namespace lfd {
+
+std::string status_table(const proto::Status& status);
+
+// Both boxes, a line each.
+std::string roi_text(const proto::RegionOfInterest& roi);
+
+// Ascending numbers in ranges: "0-3,7".
+std::string ranges_text(const google::protobuf::RepeatedField<std::uint32_t>& numbers);
+
+}  // namespace lfd
