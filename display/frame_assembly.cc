@@ -24,6 +24,7 @@ void FrameAssembly::configure(int modules, ImageSize image, std::span<const std:
   owner_.assign(modules, "");
   shown_.assign(modules, {});
   last_shown_.reset();
+  latest_swap_.reset();
   pending_.clear();
   for (auto& [name, node] : nodes_) {
     node.waiting = 0;
@@ -47,6 +48,9 @@ Status FrameAssembly::check(const Node& node, const proto::Image& what, std::siz
   if (what.of_images() < 1 || what.of_images() > kMaxImagesPerFrame)
     return Error(fmt::format("it is one of {}", what.of_images()));
   if (last_shown_ && what.frame() <= *last_shown_) return Error(fmt::format("frame {} is past", *last_shown_));
+  // A swap makes a place for its frame; where there is none any more, the frame has been given up.
+  if (latest_swap_ && what.frame() <= *latest_swap_ && !pending_.contains(what.frame()))
+    return Error("its frame was dropped");
   if (what.empty()) return payload_bytes == 0 ? Status() : Status(Error("it is empty, yet has pixels"));
   const ImageSize size{static_cast<int>(what.width_px()), static_cast<int>(what.height_px())};
   if (size != image_) {
@@ -98,6 +102,7 @@ Status FrameAssembly::image_came(const std::string& name, const proto::Image& wh
 
 void FrameAssembly::swapped(std::uint64_t frame, std::span<const std::uint32_t> stale_modules) {
   if (shown_.empty() || (last_shown_ && frame <= *last_shown_)) return;
+  latest_swap_ = std::max(latest_swap_.value_or(frame), frame);
   // Swaps come in order: those of earlier frames that did not come are lost, and nothing says that they named stale
   // modules.
   for (auto& [number, pending] : pending_) {

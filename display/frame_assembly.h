@@ -110,7 +110,7 @@ class FrameAssembly {
   std::vector<bool> owned_;         // by module
   std::vector<std::string> owner_;  // by module: the node its last image came from; empty: none yet
   std::vector<ShownModule> shown_;  // by module
-  std::optional<std::uint64_t> last_shown_;
+  std::optional<std::uint64_t> last_shown_, latest_swap_;
   std::map<std::string, Node> nodes_;
   std::map<std::uint64_t, Pending> pending_;  // all later than last_shown_
   std::uint64_t dropped_frames_ = 0;
