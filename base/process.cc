@@ -105,7 +105,7 @@ Result<std::unique_ptr<Process>> Process::start(Options options) {
 
 Process::~Process() {
   if (!poll()) {
-    signal(SIGKILL);
+    ::kill(-id_, SIGKILL);  // its process group: itself, and children of its own that it did not wait for
     wait(std::chrono::hours(1));
   }
   lines_thread_.join();
@@ -116,7 +116,11 @@ Process::~Process() {
 void Process::pump() {
   std::string begun;
   char bytes[4096];
+  pollfd sources[] = {{.fd = output_, .events = POLLIN, .revents = 0}, {.fd = ended_, .events = POLLIN, .revents = 0}};
   while (true) {
+    if (::poll(sources, 2, -1) < 0 && errno == EINTR) continue;
+    if (sources[0].revents == 0)
+      break;  // the child has ended and the pipe is empty, though a grandchild may hold it open
     const ssize_t count = ::read(output_, bytes, sizeof bytes);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;

@@ -73,7 +73,7 @@ class Process {
 
  private:
   explicit Process(Options options) : options_(std::move(options)) {}
-  void pump();  // on lines_thread_: until every writer of the pipe is gone
+  void pump();  // on lines_thread_: until the child has ended and everything it wrote is read
   void take_line(std::string line);
 
   Options options_;

@@ -67,7 +67,7 @@ fs::path Workbench::file(const std::string& name, const std::string& content) co
 
 fs::path Workbench::deployment(const std::string& more, const std::string& name) const {
   return file(name,
-              "name: \"wall\"\ndisplay: \"display.textproto\"\nscene { made { name: \"quad\" seed: 1 } }\n"
+              "name: \"wall\"\ndisplay: \"display.textproto\"\nscene { made { name: \"plane\" seed: 1 } }\n"
               "node { name: \"left\" }\nnode { name: \"right\" }\n" +
                   more);
 }
