@@ -11,7 +11,6 @@
 #include "base/log.h"
 
 namespace lfd {
-namespace {
 
 glm::dmat3 module_from_physical_rotation(const PinholeMap& map) {
   const glm::dmat3 physical_from_turned = glm::mat3_cast(glm::normalize(map.orientation));
@@ -26,6 +25,8 @@ glm::dvec2 distort(const PinholeMap& m, glm::dvec2 a) {
   return a * radial + glm::dvec2(2 * m.p1 * a.x * a.y + m.p2 * (r2 + 2 * a.x * a.x),
                                  m.p1 * (r2 + 2 * a.y * a.y) + 2 * m.p2 * a.x * a.y);
 }
+
+namespace {
 
 glm::dmat2 distort_jacobian(const PinholeMap& m, glm::dvec2 a) {
   const double r2 = glm::dot(a, a);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
 
 #include "base/result.h"
@@ -30,6 +32,12 @@ Status validate(const PinholeMap& map);
 
 // The radius up to which the radial polynomial grows, i.e. up to which it can be inverted; infinity where it always grows.
 double distortion_limit(const PinholeMap& map);
+
+// Rotation from physical to module axes, the mirroring of the frame included.
+glm::dmat3 module_from_physical_rotation(const PinholeMap& map);
+
+// The distortion alone: a' of a, in normalised coordinates.
+glm::dvec2 distort(const PinholeMap& map, glm::dvec2 a);
 
 // Absent behind the projector and beyond the radius where the distortion turns back.
 std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s);
