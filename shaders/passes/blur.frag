@@ -2,9 +2,9 @@
 #version 450 core
 #include "shared/bindings.glsl"
 
-layout(location = 0) uniform ivec2 direction;
-layout(location = 1) uniform int taps;         // to each side
-layout(location = 2) uniform float weights[25];  // of the distances 0 .. taps
+layout(location = 1) uniform ivec2 direction;
+layout(location = 2) uniform int taps;         // to each side
+layout(location = 3) uniform float weights[25];  // of the distances 0 .. taps
 layout(binding = UNIT_AO) uniform sampler2DArray ao;
 
 flat in int layer;
