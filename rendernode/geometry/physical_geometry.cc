@@ -2,6 +2,7 @@
 #include "rendernode/geometry/physical_geometry.h"
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "base/log.h"
 #include "rendernode/geometry/triangle_feed.h"
@@ -29,14 +30,17 @@ Result<Affine<World, Mesh>> placement_of(const proto::Instance& instance) {
   return placement;
 }
 
-// Normals go by the cofactors: the inverse transpose up to a positive factor, which also exists where a scale is zero.
-glm::dmat3 cofactors(const glm::dmat3& m) { return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])}; }
+// Normals go by the cofactors, the inverse transpose up to a positive factor, which also exists where a scale is zero.
+glm::dmat3 normal_map(const glm::dmat3& m) {
+  const double sign = glm::determinant(m) < 0 ? -1 : 1;
+  return {sign * glm::cross(m[1], m[2]), sign * glm::cross(m[2], m[0]), sign * glm::cross(m[0], m[1])};
+}
 
 std::vector<Corner> corners_of(const MeshArrays& mesh, const Affine<World, Mesh>& world_from_mesh, const RegionOfInterest& roi) {
   // World points are counted from the ROI centre before they are scaled: no digits are lost far from the origin.
   const glm::dmat3 physical_from_world_linear = physical_from_world(roi).linear;
   const glm::dvec3 offset = world_from_mesh.offset - to_glm(roi.world_centre);
-  const glm::dmat3 normal_from_mesh = cofactors(world_from_mesh.linear);
+  const glm::dmat3 normal_from_mesh = normal_map(world_from_mesh.linear);
   std::vector<Corner> corners(mesh.position.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec3 world = world_from_mesh.linear * glm::dvec3(mesh.position[i]) + offset;
