@@ -2,6 +2,7 @@
 #include "calibration/maps/pinhole.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
@@ -38,12 +39,41 @@ glm::dmat2 distort_jacobian(const PinholeMap& m, glm::dvec2 a) {
   return {{xx, xy}, {xy, yy}};
 }
 
-// Newton with halved steps wherever a full one does not bring the residual down or leaves the region that can be inverted.
+// d/dr of r (1 + k1 r^2 + k2 r^4 + k3 r^6) at q = r^2.
+double radial_slope(const PinholeMap& m, double q) { return 1 + q * (3 * m.k1 + q * (5 * m.k2 + q * 7 * m.k3)); }
+
+// Where the slope has its extremes, ascending: the positive roots of 3 k1 + 10 k2 q + 21 k3 q^2, infinity for those it
+// lacks.
+std::array<double, 2> slope_extremes(const PinholeMap& m) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double a = 21 * m.k3, b = 10 * m.k2, c = 3 * m.k1;
+  const double discriminant = b * b - 4 * a * c;
+  if (!(discriminant >= 0)) return {kNone, kNone};
+  const double half = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+  const auto root = [](double numerator, double denominator) {
+    const double q = numerator / denominator;
+    return q > 0 ? q : kNone;  // NaN of 0/0 is none, too
+  };
+  const double first = root(c, half), second = root(half, a);
+  return {std::min(first, second), std::max(first, second)};
+}
+
+// Whether the radial polynomial grows all the way to r^2 = q.
+bool grows_up_to(const PinholeMap& m, double q) {
+  if (!(radial_slope(m, q) > 0)) return false;
+  const auto extremes = slope_extremes(m);
+  return std::all_of(extremes.begin(), extremes.end(), [&](double e) { return e > q || radial_slope(m, e) > 0; });
+}
+
+// Newton with halved steps wherever a full one does not bring the residual down or leaves the region that can be
+// inverted.
 std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
-  const double limit = distortion_limit(m);
   if (m.k1 == 0 && m.k2 == 0 && m.k3 == 0 && m.p1 == 0 && m.p2 == 0) return wanted;
   glm::dvec2 a = wanted;
-  if (glm::length(a) >= limit) a *= 0.9 * limit / glm::length(a);
+  while (!grows_up_to(m, glm::dot(a, a))) {
+    a *= 0.5;
+    if (!(glm::length(a) > 0)) return std::nullopt;
+  }
   double residual = glm::length(distort(m, a) - wanted);
   const double enough = 1e-13 * (1 + glm::length(wanted));
   for (int iteration = 0; iteration < 60 && residual > enough; ++iteration) {
@@ -53,7 +83,7 @@ std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
     for (; fraction > 1e-6; fraction *= 0.5) {
       const glm::dvec2 candidate = a + fraction * step;
       const double candidate_residual = glm::length(distort(m, candidate) - wanted);
-      if (glm::length(candidate) < limit && candidate_residual < residual) {
+      if (candidate_residual < residual && grows_up_to(m, glm::dot(candidate, candidate))) {
         std::tie(a, residual) = std::tuple(candidate, candidate_residual);
         break;
       }
@@ -69,7 +99,8 @@ std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
 Status validate(const PinholeMap& map) {
   if (!is_finite(map.position)) return Error("position: must be finite");
   for (const auto& [name, value] : {std::pair{"focal_u_px", map.focal_u_px}, std::pair{"focal_v_px", map.focal_v_px}}) {
-    if (!(value > 0) || !std::isfinite(value)) return Error(fmt::format("{}: {} must be positive and finite", name, value));
+    if (!(value > 0) || !std::isfinite(value))
+      return Error(fmt::format("{}: {} must be positive and finite", name, value));
   }
   for (const auto& [name, value] :
        {std::pair{"principal_u_px", map.principal_u_px}, std::pair{"principal_v_px", map.principal_v_px},
@@ -85,41 +116,47 @@ Status validate(const PinholeMap& map) {
 }
 
 double distortion_limit(const PinholeMap& m) {
-  // d/dr of r (1 + k1 r^2 + k2 r^4 + k3 r^6) = 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3 with q = r^2: its smallest positive root.
-  const auto slope = [&m](double q) { return 1 + q * (3 * m.k1 + q * (5 * m.k2 + q * 7 * m.k3)); };
-  if (m.k1 >= 0 && m.k2 >= 0 && m.k3 >= 0) return std::numeric_limits<double>::infinity();
-  // Scan outward in steps small against the scale of the coefficients, then bisect.
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // Between its extremes the slope is monotonic: the first end at which it is not positive has the root before it.
   double low = 0;
-  const double coefficients = std::max({std::abs(3 * m.k1), std::sqrt(std::abs(5 * m.k2)), std::cbrt(std::abs(7 * m.k3))});
-  const double far = 8 / coefficients * 1e3;
-  for (double q = 1e-3 / coefficients; q < far; q *= 1.01) {
-    if (slope(q) > 0) {
-      low = q;
-      continue;
+  double high = kInfinity;
+  for (const double extreme : slope_extremes(m)) {
+    if (!std::isfinite(extreme)) break;
+    if (!(radial_slope(m, extreme) > 0)) {
+      high = extreme;
+      break;
     }
-    double high = q;
-    for (int i = 0; i < 100; ++i) {
-      const double middle = 0.5 * (low + high);
-      (slope(middle) > 0 ? low : high) = middle;
-    }
-    return std::sqrt(low);
+    low = extreme;
   }
-  return std::numeric_limits<double>::infinity();
+  if (!std::isfinite(high)) {
+    const double leading = m.k3 != 0 ? m.k3 : m.k2 != 0 ? m.k2 : m.k1;
+    if (leading >= 0) return kInfinity;
+    high = std::max(1.0, 2 * low);
+    while (radial_slope(m, high) > 0) high *= 2;
+    if (!std::isfinite(high)) return kInfinity;
+  }
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (radial_slope(m, middle) > 0 ? low : high) = middle;
+  }
+  return std::sqrt(low);
 }
 
 std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s) {
   const glm::dvec3 q = module_from_physical_rotation(map) * (glm::dvec3(s.x, s.y, 0) - to_glm(map.position));
   if (!(q.z > 0)) return std::nullopt;
   const glm::dvec2 a = glm::dvec2(q) / q.z;
-  if (!(glm::length(a) < distortion_limit(map))) return std::nullopt;
+  if (!grows_up_to(map, glm::dot(a, a)) || !(glm::determinant(distort_jacobian(map, a)) > 0)) return std::nullopt;
   const glm::dvec2 distorted = distort(map, a);
-  const PixelPoint p{map.focal_u_px * distorted.x + map.principal_u_px, map.focal_v_px * distorted.y + map.principal_v_px};
+  const PixelPoint p{map.focal_u_px * distorted.x + map.principal_u_px,
+                     map.focal_v_px * distorted.y + map.principal_v_px};
   if (!is_finite(p)) return std::nullopt;
   return p;
 }
 
 std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p) {
-  const auto a = undistort(map, {(p.x - map.principal_u_px) / map.focal_u_px, (p.y - map.principal_v_px) / map.focal_v_px});
+  const auto a =
+      undistort(map, {(p.x - map.principal_u_px) / map.focal_u_px, (p.y - map.principal_v_px) / map.focal_v_px});
   if (!a) return std::nullopt;
   const glm::dvec3 direction = glm::transpose(module_from_physical_rotation(map)) * glm::dvec3(*a, 1);
   const double distance = -map.position.z / direction.z;  // to the plane z = 0

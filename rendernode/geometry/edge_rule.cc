@@ -71,7 +71,7 @@ double EdgeRule::bend_between(double z0, double z1) const {
     const double share = (z - limits_.back) / (limits_.front - limits_.back);
     return std::clamp(static_cast<int>(share * kSlices), 0, kSlices - 1);
   };
-  const auto [low, high] = std::minmax(slice(z0), slice(z1));
+  const auto [low, high] = std::minmax({slice(z0), slice(z1)});
   return *std::max_element(bend_.begin() + low, bend_.begin() + high + 1);
 }
 

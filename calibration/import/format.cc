@@ -1,0 +1,21 @@
+// Formats told apart.
+#include "calibration/import/format.h"
+
+#include "calibration/import/holovizio_json.h"
+#include "calibration/import/lfdisplay_yaml.h"
+
+namespace lfd {
+
+std::optional<ForeignFormat> foreign_format_of(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && text[first] == '{') return ForeignFormat::kHolovizioJson;
+  if (text.starts_with("%YAML") || text.find("viewerdistance") != text.npos) return ForeignFormat::kLfdisplayYaml;
+  return std::nullopt;
+}
+
+Result<DisplayCalibration> import_display(ForeignFormat format, std::string_view text, const std::string& file) {
+  return format == ForeignFormat::kHolovizioJson ? import_holovizio_json(text, file)
+                                                 : import_lfdisplay_yaml(text, file);
+}
+
+}  // namespace lfd

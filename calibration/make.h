@@ -1,0 +1,37 @@
+// Displays made by name, in the class of published ones, and the errors that real installations have.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "calibration/display.h"
+
+namespace lfd {
+
+// The names that make_display knows (design geometry, section 6).
+std::vector<std::string> display_names();
+
+// A display with ideal maps: emitters span +-|ez| tan(fov/2) at equal pitch, in ascending x. `modules` replaces their
+// number, within the same span. Lengths are rounded to 1e-12 m, so that all machines make the same display.
+Result<DisplayCalibration> make_display(std::string_view name, std::optional<int> modules = std::nullopt);
+
+// The rule of thumb: 1.5 x the angle, in radians, between the two emitters in the middle of the row, seen from the
+// screen's centre. Needs at least two modules.
+double scattering_by_rule_rad(std::span<const ModuleCalibration> modules);
+
+// The pinhole at `emitter`, unturned, without distortion, that agrees with the ideal map: a lens shifted as far as
+// needed.
+PinholeMap pinhole_of_ideal(ScreenSize screen, ImageSize image, const Emitter& emitter);
+
+// The same display as if it had been installed by hand: every ideal map becomes a pinhole with its own errors of
+// position (mm), rotation (tenths of a degree), focal lengths, principal point (tenths of a percent), and a lens that
+// moves pixels by up to about 1.5 % of the image's width. The emitter moves with the pinhole. Other maps stay as they
+// are. Equal seeds give equal displays.
+DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t seed);
+
+}  // namespace lfd

@@ -1,0 +1,108 @@
+// Command lines through CLI11.
+#include "cli/command_line.h"
+
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+#include "base/suggest.h"
+#include "base/version.h"
+
+namespace lfd {
+namespace {
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::string meant(const std::string& written, const std::vector<std::string>& known) {
+  const auto near = closest(written, known);
+  return near ? fmt::format("; did you mean {}?", *near) : "";
+}
+
+// The first option or command on the line that is not known, with what it may have been meant to be; empty where all
+// are.
+std::string explain_unknown(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* command = &app;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--") break;
+    if (argument.starts_with("-") && argument.size() > 1) {
+      const std::string name = argument.substr(0, argument.find('='));
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (option != nullptr) {
+        if (name == argument) i += option->get_items_expected_min();
+      } else if (name.starts_with("--")) {
+        return fmt::format("unknown option {}{}", name, meant(name, option_names(*command)));
+      }
+      continue;
+    }
+    const auto commands =
+        command->get_subcommands([&argument](const CLI::App* one) { return one->check_name(argument); });
+    if (!commands.empty()) {
+      command = commands.front();
+    } else if (const auto known = command_names(*command); !known.empty()) {
+      return fmt::format("unknown command {}{}", argument, meant(argument, known));
+    }
+  }
+  return "";
+}
+
+const CLI::App& deepest_parsed(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : deepest_parsed(*chosen.back());
+}
+
+}  // namespace
+
+std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.set_version_flag("--version", std::string(kVersion), "Print the version");
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      app.exit(error);
+      return kExitDone;
+    }
+    const std::string unknown = explain_unknown(app, argc, argv);
+    std::cerr << "error: " << (unknown.empty() ? error.what() : unknown) << "\n";
+    std::string road = app.get_name();
+    for (const CLI::App* at = &app; at != &deepest_parsed(app);)
+      road += " " + (at = at->get_subcommands().back())->get_name();
+    std::cerr << "see: " << road << " --help\n";
+    return kExitWrongUse;
+  }
+}
+
+int fail(const Error& error) {
+  std::cerr << "error: " << error.message() << "\n";
+  return kExitFailed;
+}
+
+int wrong_use(const Error& error) {
+  fail(error);
+  return kExitWrongUse;
+}
+
+CLI::App* add_command(CLI::App& app, const char* name, const char* description, int& exit_code,
+                      std::function<int()> run) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->callback([&exit_code, run = std::move(run)] { exit_code = run(); });
+  return command;
+}
+
+}  // namespace lfd
