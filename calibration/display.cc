@@ -8,39 +8,52 @@
 namespace lfd {
 namespace {
 
-Status validate(const IdealMap&) { return {}; }
+Status validate_map(const IdealMap&) { return {}; }
 
-Status validate_module(const DisplayCalibration& display, const ModuleCalibration& module) {
-  LFD_TRY_STATUS(lfd::validate(display.optics, module.emitter));
-  return std::visit([](const auto& map) { return validate(map); }, module.map);
+Status validate_map(const HomographyMap& map) {
+  if (auto status = validate(map); !status) return status.error().within("homography");
+  return {};
+}
+
+Status validate_map(const PinholeMap& map) {
+  if (auto status = validate(map); !status) return status.error().within("pinhole");
+  return {};
+}
+
+Status validate_module(const ModuleCalibration& module) {
+  LFD_TRY_STATUS(validate(module.emitter));
+  return std::visit([](const auto& map) { return validate_map(map); }, module.map);
 }
 
 }  // namespace
 
 Status validate(const DisplayCalibration& display) {
-  for (const auto& [name, value] : {std::pair{"screen width_m", display.screen.width_m},
-                                    std::pair{"screen height_m", display.screen.height_m},
-                                    std::pair{"angular_scattering_rad", display.angular_scattering_rad}}) {
-    if (!(value > 0) || !std::isfinite(value)) return Error(fmt::format("{}: {} must be positive and finite", name, value));
+  for (const auto& [name, value] :
+       {std::pair{"screen: width_m", display.screen.width_m}, std::pair{"screen: height_m", display.screen.height_m},
+        std::pair{"angular_scattering_rad", display.angular_scattering_rad}}) {
+    if (!(value > 0) || !std::isfinite(value))
+      return Error(fmt::format("{}: {} must be positive and finite", name, value));
   }
   for (const auto& [name, value] :
-       {std::pair{"image width", display.image.width}, std::pair{"image height", display.image.height}}) {
+       {std::pair{"image: width_px", display.image.width}, std::pair{"image: height_px", display.image.height}}) {
     if (value < 1 || value > kMaxImageSide_px) {
       return Error(fmt::format("{}: {} px; 1 to {} are possible", name, value, kMaxImageSide_px));
     }
   }
+  if (auto status = validate(display.optics); !status) return status.error().within("optics");
   if (display.modules.empty() || display.modules.size() > kMaxModules) {
-    return Error(fmt::format("{} modules; 1 to {} are possible", display.modules.size(), kMaxModules));
+    return Error(fmt::format("module: {} of them; 1 to {} are possible", display.modules.size(), kMaxModules));
   }
   for (std::size_t k = 0; k < display.modules.size(); ++k) {
-    if (auto status = validate_module(display, display.modules[k]); !status) {
+    if (auto status = validate_module(display.modules[k]); !status) {
       return status.error().within(fmt::format("module {}", k));
     }
   }
   return {};
 }
 
-std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module, ScreenPoint s) {
+std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module,
+                                            ScreenPoint s) {
   if (!contains(display.screen, s)) return std::nullopt;
   std::optional<PixelPoint> p;
   if (const auto* ideal = std::get_if<IdealMap>(&module.map)) {
@@ -54,7 +67,8 @@ std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, c
   return p;
 }
 
-std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module, PixelPoint p) {
+std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module,
+                                             PixelPoint p) {
   if (!contains(display.image, p)) return std::nullopt;
   std::optional<ScreenPoint> s;
   if (const auto* ideal = std::get_if<IdealMap>(&module.map)) {

@@ -1,4 +1,5 @@
-// A display's calibration: its screen, its optics and its modules; where every physical point lands in every module's image.
+// A display's calibration: its screen, its optics and its modules; where every physical point lands in every module's
+// image.
 #pragma once
 
 #include <optional>
@@ -42,10 +43,12 @@ inline constexpr int kMaxImageSide_px = 8192;
 Status validate(const DisplayCalibration& display);
 
 // The module's map alone. Absent where the point is off the screen, has no pixel, or lands outside the image.
-std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module, ScreenPoint s);
+std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module,
+                                            ScreenPoint s);
 
 // Absent outside the image and where the screen point is off the screen.
-std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module, PixelPoint p);
+std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module,
+                                             PixelPoint p);
 
 // The whole map: optics, then the module's. Absent where either is.
 std::optional<ImagePoint> image_from_physical(const DisplayCalibration& display, const ModuleCalibration& module,

@@ -8,14 +8,20 @@
 
 namespace lfd {
 
-Status validate(const Optics& optics, const Emitter& emitter) {
+Status validate(const Optics& optics) {
   const double vz = optics.observer_distance_m;
   if (!std::isfinite(optics.observer_height_m)) return Error("observer_height_m: must be finite");
   if (!(vz > 0) || !std::isfinite(vz)) {
-    return Error(fmt::format("observer_distance_m: {} must be positive and finite: the observer stands before the screen", vz));
+    return Error(
+        fmt::format("observer_distance_m: {} must be positive and finite: the observer stands before the screen", vz));
   }
+  return {};
+}
+
+Status validate(const Emitter& emitter) {
   if (!is_finite(emitter)) return Error("emitter: must be finite");
-  if (!(emitter.z < 0)) return Error(fmt::format("emitter: z = {} must be negative: it stands behind the screen", emitter.z));
+  if (!(emitter.z < 0))
+    return Error(fmt::format("emitter: z = {} must be negative: it stands behind the screen", emitter.z));
   return {};
 }
 

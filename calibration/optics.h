@@ -1,7 +1,8 @@
 // What the special screen does: light passes straight horizontally and is spread vertically (planar screens).
 //
-// Equations: design geometry, section 2. With emitter E = (ex, ey, ez), ez < 0, the screen at z = 0 and the observer line at
-// height vy, distance vz > 0, a physical point P = (x, y, z) is shown by lighting the screen point S = (sx, sy, 0):
+// Equations: design geometry, section 2. With emitter E = (ex, ey, ez), ez < 0, the screen at z = 0 and the observer
+// line at height vy, distance vz > 0, a physical point P = (x, y, z) is shown by lighting the screen point S = (sx, sy,
+// 0):
 //   sy = vy + (y - vy) vz / (vz - z)
 //   sx = (x + ex k z / vz) / (1 + k z / vz),
 //   k  = vz / -ez                                                  linear diffuser
@@ -27,15 +28,18 @@ struct Optics {
 
 using Emitter = Point3<Physical>;  // z < 0
 
-// All physical points that one pixel shows: R(t) = on_screen + t (on_observer_line - on_screen); z grows with t, t = 1 at the
-// observer line. Of two points on it the one with the larger z hides the other.
+// All physical points that one pixel shows: R(t) = on_screen + t (on_observer_line - on_screen); z grows with t, t = 1
+// at the observer line. Of two points on it the one with the larger z hides the other.
 struct PixelLine {
   Point3<Physical> on_screen;
   Point3<Physical> on_observer_line;
 };
 
-// Refuses an observer not in front of the screen, an emitter not behind it, and numbers that are not finite.
-Status validate(const Optics& optics, const Emitter& emitter);
+// Refuses an observer not in front of the screen and numbers that are not finite; an error names the field.
+Status validate(const Optics& optics);
+
+// Refuses an emitter not behind the screen and numbers that are not finite; an error begins with "emitter: ".
+Status validate(const Emitter& emitter);
 
 // k of the equations above for a screen point at height `sy`, always > 0.
 double convergence(const Optics& optics, const Emitter& emitter, double sy);

@@ -13,13 +13,13 @@ Status validate(const HomographyMap& map) {
   double product = 1;
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {
-      if (!std::isfinite(h[column][row])) return Error("homography: all 9 numbers must be finite");
+      if (!std::isfinite(h[column][row])) return Error("h: all 9 numbers must be finite");
     }
     product *= glm::length(h[column]);
   }
   const double determinant = glm::determinant(h);
   if (!(std::abs(determinant) > 1e-12 * product)) {
-    return Error(fmt::format("homography: cannot be inverted (determinant {})", determinant));
+    return Error(fmt::format("h: cannot be inverted (determinant {})", determinant));
   }
   return {};
 }

@@ -64,7 +64,9 @@ TEST_P(OpticsOf, NothingBehindTheEmitterOrBeforeTheObserverHasAnImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Diffusers, OpticsOf, testing::Values(Diffuser::kLinear, Diffuser::kConical),
-                         [](const auto& parameter) { return parameter.param == Diffuser::kLinear ? "Linear" : "Conical"; });
+                         [](const auto& parameter) {
+                           return parameter.param == Diffuser::kLinear ? "Linear" : "Conical";
+                         });
 
 TEST(Optics, DiffusersAgreeWhereTheirConvergenceIsTheSame) {
   const Emitter emitter{0.4, 0, -2};
@@ -104,12 +106,15 @@ TEST(Optics, ConicalPointsBehindTheMeetingPointAreRefused) {
 }
 
 TEST(Optics, RefusesObserverBehindAndEmitterBeforeTheScreen) {
-  EXPECT_TRUE(validate(Optics{Diffuser::kLinear, 0, 1}, Emitter{0, 0, -1}));
-  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, 0}, Emitter{0, 0, -1}));
-  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, -1}, Emitter{0, 0, -1}));
-  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, 1}, Emitter{0, 0, 0}));
-  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, INFINITY}, Emitter{0, 0, -1}));
-  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, 1}, Emitter{NAN, 0, -1}));
+  EXPECT_TRUE(validate(Optics{Diffuser::kLinear, 0, 1}));
+  EXPECT_TRUE(validate(Emitter{0, 0, -1}));
+  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, 0}));
+  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, -1}));
+  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, 0, INFINITY}));
+  EXPECT_FALSE(validate(Optics{Diffuser::kLinear, NAN, 1}));
+  EXPECT_FALSE(validate(Emitter{0, 0, 0}));
+  EXPECT_FALSE(validate(Emitter{0, 0, 1}));
+  EXPECT_FALSE(validate(Emitter{NAN, 0, -1}));
 }
 
 }  // namespace

@@ -1,0 +1,211 @@
+// Deployment files, read and checked.
+#include "proto/deployment_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cctype>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+#include "base/log.h"
+#include "proto/calibration_file.h"
+#include "proto/endpoint.h"
+#include "proto/text_file.h"
+
+namespace lfd {
+namespace {
+
+namespace fs = std::filesystem;
+
+// An error whose message names things for a person, with the road (proto/text_file.h) to its line beside it.
+struct Fault {
+  std::string road;
+  Error error;
+};
+using Check = std::optional<Fault>;
+
+Check check_range(const std::string& road, double value, double low, double high) {
+  if (value >= low && value <= high) return std::nullopt;
+  return Fault{road, Error(fmt::format("{}: {}; {} to {} are possible", road, value, low, high))};
+}
+
+Check check_node_names(const proto::Deployment& m) {
+  if (m.node_size() == 0) return Fault{"", Error("node: at least one is needed")};
+  std::map<std::string, int> seen;
+  for (int i = 0; i < m.node_size(); ++i) {
+    const std::string& name = m.node(i).name();
+    const std::string road = fmt::format("node {}", i);
+    if (name.empty()) return Fault{road, Error(fmt::format("{}: name: is missing", road))};
+    const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+      return c < 128 && (std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_');
+    });
+    if (!plain || name.size() > 64) {
+      return Fault{road + ": name",
+                   Error(fmt::format("{}: name: at most 64 letters, digits, '.', '-' and '_' are possible", road))};
+    }
+    if (!seen.emplace(name, i).second) {
+      return Fault{road + ": name",
+                   Error(fmt::format("{}: name: \"{}\" is the name of node {} already", road, name, seen[name]))};
+    }
+    if (auto fault = check_range(road + ": gpu", m.node(i).gpu(), 0, 63)) return fault;
+  }
+  return std::nullopt;
+}
+
+// The lists of the file; each module belongs to one node at most.
+Check assign_listed(const proto::Deployment& m, int module_count, std::vector<NodeShare>& nodes) {
+  std::map<int, std::string> owner;
+  for (int i = 0; i < m.node_size(); ++i) {
+    NodeShare& node = nodes[static_cast<std::size_t>(i)];
+    for (int j = 0; j < m.node(i).modules_size(); ++j) {
+      const std::string road = fmt::format("node {}: modules {}", i, j);
+      const auto fault = [&](const Error& error) {
+        return Fault{road, error.within(fmt::format("node \"{}\": modules", node.name))};
+      };
+      const auto modules = parse_module_range(m.node(i).modules(j), module_count);
+      if (!modules) return fault(modules.error());
+      for (const int module : *modules) {
+        const auto [known, is_new] = owner.emplace(module, node.name);
+        if (!is_new) return fault(Error(fmt::format("{} is owned by node \"{}\" already", module, known->second)));
+        node.modules.push_back(module);
+      }
+    }
+    std::sort(node.modules.begin(), node.modules.end());
+  }
+  return std::nullopt;
+}
+
+Check assign_modules(const proto::Deployment& m, bool use_lists, int module_count, std::vector<NodeShare>& nodes) {
+  for (const auto& node : m.node()) nodes.push_back({node.name(), {}, node.gpu()});
+  const bool listed =
+      std::any_of(m.node().begin(), m.node().end(), [](const auto& node) { return node.modules_size() > 0; });
+  if (listed && use_lists) return assign_listed(m, module_count, nodes);
+  const auto shares = equal_shares(module_count, m.node_size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].modules = shares[i];
+  return std::nullopt;
+}
+
+Check read_addresses(const proto::Deployment::Addresses& m, Addresses& addresses) {
+  std::map<std::string, std::string> seen;
+  for (const auto& [field, text, address] :
+       {std::tuple{"control", &m.control(), &addresses.control}, std::tuple{"state", &m.state(), &addresses.state},
+        std::tuple{"bulk", &m.bulk(), &addresses.bulk}, std::tuple{"images", &m.images(), &addresses.images}}) {
+    if (text->empty()) continue;
+    const std::string road = fmt::format("addresses: {}", field);
+    if (auto status = validate_endpoint(*text); !status) return Fault{road, status.error().within(road)};
+    if (is_fixed_endpoint(*text) && !seen.emplace(*text, field).second) {
+      return Fault{road, Error(fmt::format("{}: \"{}\" is the address of {} already", road, *text, seen[*text]))};
+    }
+    *address = *text;
+  }
+  return std::nullopt;
+}
+
+Check read_pacing(const proto::Deployment::Pacing& m, Pacing& pacing) {
+  if (auto fault = check_range("pacing: frames_per_second", m.frames_per_second(), 0, 1000)) return fault;
+  if (auto fault = check_range("pacing: deadline_ms", m.deadline_ms(), 0, 3'600'000)) return fault;
+  if (m.heartbeat_ms() != 0) {
+    if (auto fault = check_range("pacing: heartbeat_ms", m.heartbeat_ms(), 20, 60'000)) return fault;
+    pacing.heartbeat = std::chrono::milliseconds(m.heartbeat_ms());
+  }
+  pacing.frames_per_second = m.frames_per_second();
+  pacing.deadline = std::chrono::milliseconds(m.deadline_ms());
+  return std::nullopt;
+}
+
+Check read_scene(const DeploymentOverrides& overrides, Deployment& deployment) {
+  const auto& m = deployment.message.scene();
+  if (auto fault = check_range("scene: frames_per_second", m.frames_per_second(), 0, 1000)) return fault;
+  if (m.frames_per_second() > 0) deployment.animation_frames_per_second = m.frames_per_second();
+  if (overrides.scene) {
+    deployment.scene_file = *overrides.scene;
+  } else if (!m.file().empty()) {
+    deployment.scene_file = deployment.folder / m.file();
+  } else if (m.made().name().empty()) {
+    return Fault{"scene", Error("scene: a file or the name of a made one is needed")};
+  }
+  return std::nullopt;
+}
+
+Check read_display(const DeploymentOverrides& overrides, Deployment& deployment) {
+  if (!overrides.display && deployment.message.display().empty()) {
+    return Fault{"display", Error("display: the path of a calibration file is needed")};
+  }
+  deployment.display_file = overrides.display.value_or(deployment.folder / deployment.message.display());
+  auto display = load_calibration(deployment.display_file);
+  if (!display) return Fault{"display", overrides.display ? display.error() : display.error().within("display")};
+  deployment.display = *std::move(display);
+  return std::nullopt;
+}
+
+// What can be said of settings before the scene is known.
+Check read_drawing(Deployment& deployment) {
+  const proto::Deployment& m = deployment.message;
+  auto render = read_settings(m.render());
+  if (!render) {
+    const Error error = render.error().within("render");
+    return Fault{error.message(), error};
+  }
+  deployment.render = *render;
+  const ScreenSize screen = deployment.display.screen;
+  const auto roi = complete_roi(m.roi(), {-1, -1, -1}, {1, 1, 1}, screen.width_m, screen.height_m);
+  if (!roi) return Fault{roi.error().message(), roi.error()};
+  if (m.sink() < proto::Deployment::DISPLAY || m.sink() > proto::Deployment::NONE) {
+    return Fault{"sink", Error("sink: must be DISPLAY, FILES or NONE")};
+  }
+  return std::nullopt;
+}
+
+Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
+  if (auto fault = check_node_names(deployment.message)) return fault;
+  if (auto fault = read_display(overrides, deployment)) return fault;
+  if (auto fault = read_scene(overrides, deployment)) return fault;
+  if (auto fault = read_drawing(deployment)) return fault;
+  if (auto fault = read_addresses(deployment.message.addresses(), deployment.addresses)) return fault;
+  if (auto fault = read_pacing(deployment.message.pacing(), deployment.pacing)) return fault;
+  const int module_count = static_cast<int>(deployment.display.modules.size());
+  return assign_modules(deployment.message, !overrides.display, module_count, deployment.nodes);
+}
+
+Result<int> parse_number(std::string_view text) {
+  int number = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (failure != std::errc() || end != text.data() + text.size() || number < 0) {
+    return Error(fmt::format("\"{}\" is no module number", text));
+  }
+  return number;
+}
+
+}  // namespace
+
+Result<std::vector<int>> parse_module_range(std::string_view text, int module_count) {
+  const std::size_t dash = text.find('-');
+  LFD_TRY(const int first, parse_number(text.substr(0, dash)));
+  LFD_TRY(const int last, dash == text.npos ? Result<int>(first) : parse_number(text.substr(dash + 1)));
+  if (last < first) return Error(fmt::format("\"{}\" runs backwards", text));
+  if (last >= module_count) return Error(fmt::format("{}; the display has modules 0 to {}", last, module_count - 1));
+  std::vector<int> modules(static_cast<std::size_t>(last - first + 1));
+  std::iota(modules.begin(), modules.end(), first);
+  return modules;
+}
+
+std::vector<std::vector<int>> equal_shares(int module_count, int nodes) {
+  LFD_CHECK(module_count >= 0 && nodes > 0, "shares need someone to take them");
+  std::vector<std::vector<int>> shares(static_cast<std::size_t>(nodes));
+  for (int module = 0; module < module_count; ++module) {
+    const int node = static_cast<int>(std::int64_t{module} * nodes / module_count);
+    shares[static_cast<std::size_t>(node)].push_back(module);
+  }
+  return shares;
+}
+
+Result<Deployment> load_deployment(const fs::path& path, const DeploymentOverrides& overrides) {
+  Deployment deployment;
+  LFD_TRY(const TextPlaces places, read_text_file(path, deployment.message));
+  deployment.folder = path.parent_path();
+  if (const auto fault = read_parts(overrides, deployment)) return fault->error.within(places.of(fault->road));
+  return deployment;
+}
+
+}  // namespace lfd

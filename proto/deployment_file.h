@@ -1,0 +1,67 @@
+// Deployment files (schema: proto/deployment.proto): one file says what a whole cluster is.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "calibration/display.h"
+#include "proto/deployment.pb.h"
+#include "proto/settings.h"
+
+namespace lfd {
+
+// The part of a display that one render node draws.
+struct NodeShare {
+  std::string name;          // unique; letters, digits, '.', '-', '_'
+  std::vector<int> modules;  // ascending; no module has two nodes; empty: a spare
+  int gpu = 0;
+};
+
+struct Pacing {
+  double frames_per_second = 0;           // 0: as fast as the nodes draw
+  std::chrono::milliseconds deadline{0};  // begin to swap; 0: wait for every node
+  std::chrono::milliseconds heartbeat{500};
+};
+
+// ZeroMQ endpoints, all given; a port written * is chosen freely.
+struct Addresses {
+  std::string control = "tcp://127.0.0.1:*";
+  std::string state = "tcp://127.0.0.1:*";
+  std::string bulk = "tcp://127.0.0.1:*";
+  std::string images = "tcp://127.0.0.1:*";
+};
+
+// A deployment file, checked, with defaults filled in and paths resolved against the file's folder.
+struct Deployment {
+  proto::Deployment message;  // as it was written
+  std::filesystem::path folder;
+  std::filesystem::path display_file;
+  DisplayCalibration display;
+  std::optional<std::filesystem::path> scene_file;  // absent: message.scene().made()
+  double animation_frames_per_second = 60;
+  RenderSettings render;
+  std::vector<NodeShare> nodes;
+  Addresses addresses;
+  Pacing pacing;
+};
+
+// What a command line says instead of the file; relative paths are those of the working directory.
+struct DeploymentOverrides {
+  std::optional<std::filesystem::path> display;  // the file's lists of modules are not used then: equal shares
+  std::optional<std::filesystem::path> scene;
+};
+
+// Errors name file, line and field: `wall.textproto:14: node "b": modules: 17 is owned by node "a" already`.
+Result<Deployment> load_deployment(const std::filesystem::path& path, const DeploymentOverrides& overrides = {});
+
+// "0-15" or "17" as ascending numbers, each below `module_count`.
+Result<std::vector<int>> parse_module_range(std::string_view text, int module_count);
+
+// Shares of modules 0..module_count-1 among so many nodes: contiguous, ascending, sizes that differ by one at most.
+std::vector<std::vector<int>> equal_shares(int module_count, int nodes);
+
+}  // namespace lfd
