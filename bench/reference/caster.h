@@ -13,7 +13,7 @@ namespace lfd::reference {
 struct ModuleView {
   const DisplayCalibration& display;
   const ModuleCalibration& module;
-  ZLimits limits;
+  ZLimits limits{};
 };
 
 // What every pixel of a module shows; rows from the top.

@@ -32,15 +32,17 @@ std::uint8_t encoded(double linear) {
 
 }  // namespace
 
-Picture perspective(const Intersector& intersector, ScreenSize screen, Point3<Physical> eye,
-                    const PerspectiveSettings& settings) {
+PerspectivePicture perspective(const Intersector& intersector, ScreenSize screen, Point3<Physical> eye,
+                               const PerspectiveSettings& settings) {
   LFD_CHECK(eye.z > 0, "the eye is before the screen");
   LFD_CHECK(settings.samples_per_side > 0, "at least one sample a pixel");
   const ImageSize size = settings.size;
   const int n = settings.samples_per_side;
   const double z_start = std::min(eye.z, settings.limits.near_z_m);
   const double z_end = farthest_z(intersector.scene(), settings.limits);
-  Picture picture{size, std::vector<glm::dvec3>(static_cast<std::size_t>(size.width) * size.height), {}};
+  const std::size_t numbers = std::size_t{4} * size.width * size.height;
+  PerspectivePicture picture{{size.width, size.height, std::vector<float>(numbers)},
+                             black_picture(size.width, size.height)};
   for_each_row(size.height, [&](int row) {
     for (int column = 0; column < size.width; ++column) {
       glm::dvec3 sum(0);
@@ -49,12 +51,16 @@ Picture perspective(const Intersector& intersector, ScreenSize screen, Point3<Ph
         const ScreenPoint s = screen_from_image(IdealMap{}, screen, size, p);
         sum += color_through(intersector, eye, {s.x, s.y, 0}, z_start, z_end, settings.background);
       }
-      picture.linear[static_cast<std::size_t>(row) * size.width + column] = sum / static_cast<double>(n * n);
+      const glm::dvec3 color = sum / static_cast<double>(n * n);
+      const std::size_t first = 4 * (static_cast<std::size_t>(row) * size.width + column);
+      for (int channel = 0; channel < 3; ++channel) {
+        picture.linear.rgba[first + channel] = static_cast<float>(color[channel]);
+        picture.encoded.rgba[first + channel] = encoded(color[channel]);
+      }
+      picture.linear.rgba[first + 3] = 1;
+      picture.encoded.rgba[first + 3] = 255;
     }
   });
-  for (const glm::dvec3& color : picture.linear) {
-    picture.rgba.insert(picture.rgba.end(), {encoded(color.r), encoded(color.g), encoded(color.b), 255});
-  }
   return picture;
 }
 

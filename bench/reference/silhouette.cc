@@ -14,7 +14,7 @@ constexpr double kSteepest_pitches = 2;
 constexpr double kLargestBend_pitches = 0.5;
 constexpr double kUnexplained_pitches = 0.05;
 constexpr double kClosedGap_pitches = 0.01;
-constexpr int kMostHalvings = 24;  // then the way is 6e-8 pixels long; a surface still open there is torn
+constexpr int kMostHalvings = 24;  // then the way is 3e-8 pixels long; a surface still open there is torn
 
 // A pixel position with what its line meets.
 struct Sight {
@@ -30,10 +30,11 @@ class Neighbours {
   bool are_torn(PixelPoint p, const std::optional<Hit>& at_p, PixelPoint q, const std::optional<Hit>& at_q) const {
     if (!at_p && !at_q) return false;
     if (!at_p || !at_q) return true;
-    if (at_p->triangle == at_q->triangle) return false;
-    const auto line_p = pixel_line(view_.display, view_.module, p), line_q = pixel_line(view_.display, view_.module, q);
-    const double pitch = length(at_depth(*line_q, at_p->physical.z) - at_p->physical);
-    return !planes_explain(*line_p, *at_p, *line_q, *at_q, pitch) && !closes({p, *at_p}, {q, *at_q}, pitch);
+    const PixelPoint between = halfway(p, q);
+    const auto hit = cast_point(intersector_, view_, between);
+    if (!hit) return true;
+    const Sight middle{between, *hit};
+    return !is_whole({p, *at_p}, middle) || !is_whole(middle, {q, *at_q});
   }
 
  private:
@@ -63,7 +64,7 @@ class Neighbours {
   bool closes(Sight p, Sight q, double pitch) const {
     for (int i = 0; i < kMostHalvings; ++i) {
       if (p.hit.triangle == q.hit.triangle || gap(p, q) <= kClosedGap_pitches * pitch) return true;
-      const PixelPoint between{0.5 * (p.pixel.x + q.pixel.x), 0.5 * (p.pixel.y + q.pixel.y)};
+      const PixelPoint between = halfway(p.pixel, q.pixel);
       const auto hit = cast_point(intersector_, view_, between);
       if (!hit) return false;
       const Sight middle{between, *hit};
@@ -71,6 +72,16 @@ class Neighbours {
     }
     return false;
   }
+
+  bool is_whole(const Sight& p, const Sight& q) const {
+    if (p.hit.triangle == q.hit.triangle) return true;
+    const auto line_p = pixel_line(view_.display, view_.module, p.pixel);
+    const auto line_q = pixel_line(view_.display, view_.module, q.pixel);
+    const double pitch = length(at_depth(*line_q, p.hit.physical.z) - p.hit.physical);
+    return planes_explain(*line_p, p.hit, *line_q, q.hit, pitch) || closes(p, q, pitch);
+  }
+
+  static PixelPoint halfway(PixelPoint p, PixelPoint q) { return {0.5 * (p.x + q.x), 0.5 * (p.y + q.y)}; }
 
   static double gap(const Sight& p, const Sight& q) { return length(p.hit.physical - q.hit.physical); }
 

@@ -34,7 +34,7 @@ double srgb_from_linear(double linear) {
   return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-Result<Texture> Texture::make(const proto::Texture& description, const RgbaPicture& picture) {
+Result<Texture> Texture::make(const proto::Texture& description, const Picture8& picture) {
   LFD_CHECK(picture.width > 0 && picture.height > 0, "a picture has pixels");
   LFD_CHECK(picture.rgba.size() == std::size_t{4} * picture.width * picture.height, "RGBA of every pixel");
   Texture texture;

@@ -23,10 +23,11 @@ double error_of(Point3<World> rendered, Point3<World> reference, double roi_diag
 
 }  // namespace
 
-Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silhouette,
-              const RenderedPositions& rendered, double roi_diagonal_m) {
+Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silhouette, const PictureF& rendered,
+              Point3<World> position_origin, double roi_diagonal_m) {
   const std::size_t pixels = reference.hit.size();
-  LFD_CHECK(rendered.size == reference.size && rendered.rgba.size() == 4 * pixels && near_silhouette.size() == pixels,
+  LFD_CHECK(rendered.width == reference.size.width && rendered.height == reference.size.height &&
+                near_silhouette.size() == pixels,
             "pictures of one size");
   LFD_CHECK(roi_diagonal_m > 0, "the region of interest has a size");
   Truth truth;
@@ -44,7 +45,7 @@ Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silh
       continue;
     }
     const double error =
-        error_of(rendered.origin + Vector3<World>{rgba[0], rgba[1], rgba[2]}, hit->world, roi_diagonal_m);
+        error_of(position_origin + Vector3<World>{rgba[0], rgba[1], rgba[2]}, hit->world, roi_diagonal_m);
     if (errors.empty() || error > truth.max) {
       truth.max = error;
       truth.worst = {static_cast<int>(i % reference.size.width), static_cast<int>(i / reference.size.width)};

@@ -7,16 +7,9 @@
 #include <vector>
 
 #include "bench/reference/caster.h"
+#include "proto/pictures/picture.h"
 
 namespace lfd::reference {
-
-// A position buffer as it is written to files: RGBA, float32, rows from the top; world position minus `origin`, alpha 1
-// where there is a surface, else 0. rgba.size() = 4 width height.
-struct RenderedPositions {
-  ImageSize size;
-  std::span<const float> rgba;
-  Point3<World> origin;
-};
 
 // Errors are distances in the world over the diagonal of the region of interest. Percentiles are by nearest rank; all 0
 // where nothing was compared. A position that is not finite has the error infinity.
@@ -31,9 +24,10 @@ struct Truth {
   double mismatch_share = 0;  // pixels with a surface in only one, over those with one in any; 0 where none has
 };
 
-// `near_silhouette` is that of silhouette.h for `reference`. All three are of one size.
-Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silhouette,
-              const RenderedPositions& rendered, double roi_diagonal_m);
+// `rendered` is a position buffer as it is written to files: world position minus `position_origin`, alpha 1 where
+// there is a surface, else 0. `near_silhouette` is that of silhouette.h for `reference`. All three are of one size.
+Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silhouette, const PictureF& rendered,
+              Point3<World> position_origin, double roi_diagonal_m);
 
 // What a renderer must keep.
 struct TruthBounds {

@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "proto/mesh_arrays.h"
+#include "proto/pictures/decode.h"
 
 namespace lfd::reference {
 namespace {
@@ -58,17 +59,16 @@ void place(const MeshArrays& mesh, const Placement& placement, std::uint32_t ins
   }
 }
 
-Result<Texture> texture_of(const proto::Texture& description, const SceneData& data, const PictureDecoder& decoder) {
+Result<Texture> texture_of(const proto::Texture& description, const SceneData& data) {
   const auto asset = data.assets.find(description.picture());
   if (asset == data.assets.end()) return Error(fmt::format("picture {} is missing", description.picture()));
   proto::Picture picture;
   if (!picture.ParseFromString(*asset->second)) return Error("the picture asset cannot be parsed");
-  LFD_TRY(const RgbaPicture decoded, decoder(picture.file()));
+  LFD_TRY(const Picture8 decoded, decode_picture(picture.file()));
   return Texture::make(description, decoded);
 }
 
-Result<Material> material_of(const proto::Material& from, const SceneData& data, const PictureDecoder& decoder,
-                             std::vector<Texture>& textures) {
+Result<Material> material_of(const proto::Material& from, const SceneData& data, std::vector<Texture>& textures) {
   Material material;
   const auto& color = from.base_color();
   if (color.size() != 0 && color.size() != 4)
@@ -76,8 +76,8 @@ Result<Material> material_of(const proto::Material& from, const SceneData& data,
   if (color.size() == 4) material.base_color = {color[0], color[1], color[2], color[3]};
   if (from.has_alpha_cutoff()) material.alpha_cutoff = from.alpha_cutoff();
   material.double_sided = from.double_sided();
-  if (from.has_texture() && decoder) {
-    LFD_TRY(Texture texture, texture_of(from.texture(), data, decoder));
+  if (from.has_texture()) {
+    LFD_TRY(Texture texture, texture_of(from.texture(), data));
     material.texture = static_cast<std::uint32_t>(textures.size());
     textures.push_back(std::move(texture));
   }
@@ -113,13 +113,13 @@ glm::dvec4 WorldScene::base_color(const Triangle& t, glm::dvec3 barycentric) con
   return m.texture ? color * texture[*m.texture].sample(uv) : color;
 }
 
-Result<WorldScene> world_scene(const SceneData& data, const RegionOfInterest& roi, const PictureDecoder& decoder) {
+Result<WorldScene> world_scene(const SceneData& data, const RegionOfInterest& roi) {
   WorldScene scene;
   scene.physical_from_world = physical_from_world(roi);
   scene.world_from_physical = world_from_physical(roi);
   scene.roi_diagonal_m = roi.diagonal_m();
   for (int i = 0; i < data.scene.material_size(); ++i) {
-    auto material = material_of(data.scene.material(i), data, decoder, scene.texture);
+    auto material = material_of(data.scene.material(i), data, scene.texture);
     if (!material) return material.error().within(fmt::format("material {}", i));
     scene.material.push_back(*material);
   }

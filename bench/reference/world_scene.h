@@ -63,6 +63,6 @@ struct WorldScene {
 // Places every instance: float32 mesh -> world -> physical, in double. Without a decoder every texture is white and
 // opaque. Errors name the instance or the material: assets that are missing or broken, indices out of range,
 // undecodable pictures.
-Result<WorldScene> world_scene(const SceneData& data, const RegionOfInterest& roi, const PictureDecoder& decoder = {});
+Result<WorldScene> world_scene(const SceneData& data, const RegionOfInterest& roi);
 
 }  // namespace lfd::reference

@@ -5,17 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "proto/pictures/png.h"
 #include "tests/unit/reference_scenes.h"
 
 namespace lfd::reference {
 namespace {
-
-WorldScene scene_of(SceneMaker& maker, const RegionOfInterest& roi = same_spaces(),
-                    const PictureDecoder& decoder = {}) {
-  auto scene = world_scene(maker.data(), roi, decoder);
-  EXPECT_TRUE(scene) << (scene ? "" : scene.error().message());
-  return *std::move(scene);
-}
 
 class CasterOf : public testing::TestWithParam<Diffuser> {};
 INSTANTIATE_TEST_SUITE_P(Diffusers, CasterOf, testing::Values(Diffuser::kLinear, Diffuser::kConical),
@@ -249,16 +243,12 @@ TEST(Caster, MaskedTexelsAreSeenThrough) {
   const std::uint32_t material = maker.add_material({.alpha_cutoff = 0.5F});
   proto::Texture& texture = *maker.data().scene.mutable_material(0)->mutable_texture();
   proto::Picture picture;
-  picture.set_file("any bytes");
+  picture.set_file(*encode_png({2, 1, {255, 255, 255, 0, 255, 255, 255, 255}}));
   texture.set_picture("picture");
   texture.set_wrap_s(proto::Texture::CLAMP_TO_EDGE);
   maker.data().assets["picture"] = std::make_shared<const std::string>(picture.SerializeAsString());
   maker.add_quad({-0.8F, -1, 0}, {0.8F, -1, 0}, {0.8F, 1, 0}, {-0.8F, 1, 0}, material);
-  const PictureDecoder decoder = [](std::string_view file) -> Result<RgbaPicture> {
-    EXPECT_EQ(file, "any bytes");
-    return RgbaPicture{2, 1, {255, 255, 255, 0, 255, 255, 255, 255}};
-  };
-  const WorldScene scene = scene_of(maker, same_spaces(), decoder);
+  const WorldScene scene = scene_of(maker, same_spaces());
   const Intersector intersector(scene);
   const DisplayCalibration display = one_module(Diffuser::kLinear);
   const ModuleView view{display, display.modules[0], {}};

@@ -59,6 +59,7 @@ class SceneMaker {
   }
 
   SceneData& data() { return data_; }
+  const SceneData& data() const { return data_; }
 
   static MeshArrays mesh_of(const std::vector<Corners>& triangles) {
     MeshArrays mesh;
@@ -80,6 +81,12 @@ class SceneMaker {
 
 // World and physical space are the same.
 inline RegionOfInterest same_spaces() { return {}; }
+
+inline WorldScene scene_of(const SceneMaker& maker, const RegionOfInterest& roi = same_spaces()) {
+  auto scene = world_scene(maker.data(), roi);
+  LFD_CHECK(scene, scene.error().message());
+  return *std::move(scene);
+}
 
 // A display of one module: screen 1.6 x 0.9 m, vz 3, emitter to the left and low, so that the two diffusers differ.
 inline DisplayCalibration one_module(Diffuser diffuser, ImageSize image = {64, 48}) {
