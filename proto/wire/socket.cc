@@ -12,6 +12,7 @@
 
 #include "base/log.h"
 #include "base/version.h"
+#include "proto/endpoint.h"
 #include "proto/wire/owner.h"
 #include "proto/wire/transport.h"
 
@@ -61,24 +62,12 @@ Error taken(const std::string& endpoint) {
   return Error(fmt::format("{}: the address is in use by process {} ({})", endpoint, owner->process, owner->command));
 }
 
-// ZeroMQ takes ports beyond 65535 modulo 65536.
-Status check_endpoint(const std::string& endpoint) {
-  if (endpoint.starts_with("ipc://") && endpoint.size() > 6) return {};
-  if (!endpoint.starts_with("tcp://")) {
-    return Error(fmt::format("{}: not an endpoint; they look like tcp://ADDRESS:PORT or ipc://PATH", endpoint));
-  }
-  const std::string port = endpoint.substr(endpoint.rfind(':') + 1);
-  const bool is_number = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
-  if (port == "*" || (is_number && std::stoi(port) >= 1 && std::stoi(port) <= 65535)) return {};
-  return Error(fmt::format("{}: the port must be 1 to 65535, or * where it is bound", endpoint));
-}
-
 using Attach = void (zmq::socket_t::*)(const std::string&);
 
 Result<Socket> open(Context& context, zmq::socket_type type, const std::string& endpoint, const Limits& limits,
                     Attach attach) {
   const bool binds = attach == static_cast<Attach>(&zmq::socket_t::bind);
-  LFD_TRY_STATUS(check_endpoint(endpoint));
+  LFD_TRY_STATUS(validate_endpoint(endpoint));
   const std::string ipc_file = binds && endpoint.starts_with("ipc://") ? endpoint.substr(6) : "";
   if (somebody_listens(ipc_file)) return taken(endpoint);
   try {

@@ -255,7 +255,7 @@ TEST(WireSocket, BadEndpointsAreErrorsThatNameThem) {
        {"", "nonsense", "udp://1.2.3.4:5", "tcp://127.0.0.1:99999", "tcp://no.such.interface:5"}) {
     const auto socket = bind_router(context, endpoint);
     ASSERT_FALSE(socket) << endpoint;
-    EXPECT_THAT(socket.error().message(), testing::StartsWith(endpoint + ": "));
+    EXPECT_THAT(socket.error().message(), HasSubstr(endpoint));
   }
 }
 

@@ -1,0 +1,272 @@
+// Sockets, signals and clock around FrameAssembly and PictureWriter; they decide, this does.
+#include "display/daemon.h"
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <map>
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "display/frame_assembly.h"
+#include "display/picture_writer.h"
+#include "proto/calibration_file.h"
+#include "proto/wire/poll.h"
+#include "proto/wire/socket.h"
+
+namespace lfd::display {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kJoinPause = 300ms;
+constexpr auto kTick = 100ms;
+constexpr auto kLastWords = 200ms;
+constexpr int kSilentHeartbeats = 6;  // then the controller counts as away
+constexpr auto kWarningPause = 5s;
+
+std::span<const std::uint32_t> span_of(const google::protobuf::RepeatedField<std::uint32_t>& numbers) {
+  return {numbers.data(), static_cast<std::size_t>(numbers.size())};
+}
+
+// SIGTERM and SIGINT as something to wait for.
+class Signals {
+ public:
+  Signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGINT);
+    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    descriptor_ = ::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
+    LFD_CHECK(descriptor_ >= 0, "no file descriptor is left for a signalfd");
+  }
+  ~Signals() { ::close(descriptor_); }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  bool arrived() const {
+    signalfd_siginfo info;
+    return ::read(descriptor_, &info, sizeof(info)) == static_cast<ssize_t>(sizeof(info));
+  }
+
+ private:
+  int descriptor_ = -1;
+};
+
+class Daemon {
+ public:
+  Daemon(const DaemonOptions& options, wire::Context& context, wire::Socket images, wire::Socket control)
+      : options_(options), context_(context), images_(std::move(images)), control_(std::move(control)) {
+    if (options.out) writer_.emplace(*options.out);
+  }
+
+  Status run(const Signals& signals);
+
+ private:
+  void wait_for_something(const Signals& signals);
+  void join_or_beat(Clock::time_point now);
+  Status hear_control();
+  Status welcome(const proto::Welcome& message);
+  void hear_state();
+  void hear_images();
+  void hello(const std::string& peer, const std::string& node);
+  void show();
+  void say_shown(std::uint64_t frame, int fresh_modules);
+  void give_credits();
+  void warn_of_image(const Error& error);
+
+  const DaemonOptions& options_;
+  wire::Context& context_;
+  wire::Socket images_, control_;
+  std::optional<wire::Socket> state_;
+  std::optional<PictureWriter> writer_;
+  FrameAssembly assembly_;
+  ImageSize image_size_;
+  std::map<std::string, std::string> peer_of_node_;
+  bool welcome_ = false, ended_ = false;
+  Clock::duration heartbeat_ = 500ms;
+  Clock::time_point next_words_{}, last_heard_{}, last_warning_{};
+  std::uint64_t refused_images_ = 0;
+};
+
+Status Daemon::run(const Signals& signals) {
+  log::info("images at {}, controller at {}", images_.endpoint(), control_.endpoint());
+  while (!ended_) {
+    wait_for_something(signals);
+    if (signals.arrived()) break;
+    LFD_TRY_STATUS(hear_control());
+    hear_state();
+    hear_images();
+    show();
+    give_credits();
+    join_or_beat(Clock::now());
+  }
+  proto::Envelope leave;
+  leave.mutable_leave()->set_reason(ended_ ? "the controller said quit" : "stopped by a signal");
+  control_.linger(kLastWords);
+  if (!control_.send(leave)) log::debug("the controller is away; it is not told");
+  log::info("ends; {} frames dropped, {} images refused, {} pictures could not be written", assembly_.dropped_frames(),
+            refused_images_, writer_ ? writer_->failed_images() : 0);
+  return {};
+}
+
+void Daemon::wait_for_something(const Signals& signals) {
+  std::vector<const wire::Socket*> sockets = {&images_, &control_};
+  std::vector<int> descriptors = {signals.descriptor()};
+  if (state_) sockets.push_back(&*state_);
+  if (writer_) descriptors.push_back(writer_->descriptor());
+  wire::wait(sockets, descriptors, kTick);
+}
+
+void Daemon::join_or_beat(Clock::time_point now) {
+  if (welcome_ && now - last_heard_ > kSilentHeartbeats * heartbeat_) {
+    log::warn("nothing heard of the controller for {:.0f} ms; the last frame stays, joining again",
+              milliseconds(now - last_heard_));
+    welcome_ = false;
+  }
+  if (now < next_words_) return;
+  proto::Envelope words;
+  if (welcome_) {
+    words.mutable_heartbeat();
+  } else {
+    auto* join = words.mutable_join();
+    join->set_role(proto::DISPLAY);
+    join->set_name(options_.name);
+    join->set_version(kVersion);
+    join->set_images_endpoint(images_.endpoint());
+    join->set_calibration_hash(options_.calibration_hash);
+    join->set_process(static_cast<std::uint64_t>(::getpid()));
+  }
+  if (const Status sent = control_.send(words); !sent) log::trace("{}", sent.error().message());
+  next_words_ = now + (welcome_ ? heartbeat_ : Clock::duration(kJoinPause));
+}
+
+Status Daemon::hear_control() {
+  while (const auto message = control_.receive()) {
+    last_heard_ = Clock::now();
+    const auto& envelope = message->envelope;
+    if (envelope.has_refused())
+      return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
+    if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope.welcome()));
+    if (envelope.has_quit()) ended_ = true;
+  }
+  return {};
+}
+
+Status Daemon::welcome(const proto::Welcome& message) {
+  const auto display = read_calibration(message.display());
+  if (!display) return display.error().within("the controller's display");
+  auto state = wire::connect_subscriber(context_, message.state_endpoint());
+  if (!state) return state.error().within("the controller's state channel");
+  state_ = std::move(*state);
+  if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
+  image_size_ = display->image;
+  assembly_.configure(static_cast<int>(display->modules.size()), display->image, span_of(message.modules()));
+  welcome_ = true;
+  next_words_ = Clock::now();
+  log::info("joined: display \"{}\", {} modules of {} x {} pixels", display->name, display->modules.size(),
+            display->image.width, display->image.height);
+  return {};
+}
+
+void Daemon::hear_state() {
+  if (!state_) return;
+  while (const auto message = state_->receive()) {
+    last_heard_ = Clock::now();
+    const auto& envelope = message->envelope;
+    if (envelope.has_quit()) {
+      log::info("the controller says quit: {}", envelope.quit().reason());
+      ended_ = true;
+    }
+    if (!envelope.has_swap()) continue;
+    const auto& swap = envelope.swap();
+    assembly_.swapped(swap.frame(), span_of(swap.stale_modules()));
+    if (swap.stale_modules_size() > 0)
+      log::debug("frame {}: {} modules are stale", swap.frame(), swap.stale_modules_size());
+  }
+}
+
+void Daemon::hear_images() {
+  while (auto message = images_.receive()) {
+    const auto& envelope = message->envelope;
+    if (envelope.has_hello()) hello(message->peer, envelope.hello().node());
+    if (!envelope.has_image()) continue;
+    const Status status =
+        assembly_.image_came(message->peer, envelope.image(), std::move(message->payload), Clock::now());
+    if (!status) warn_of_image(status.error());
+  }
+}
+
+void Daemon::hello(const std::string& peer, const std::string& node) {
+  std::string& known = peer_of_node_[node];
+  if (known == peer) return;
+  if (!known.empty()) assembly_.node_left(known);
+  known = peer;
+  assembly_.node_came(peer);
+  log::info("node \"{}\" sends images", node);
+}
+
+void Daemon::show() {
+  while (writer_) {
+    const auto written = writer_->take_written();
+    if (!written) break;
+    say_shown(written->frame, written->fresh_modules);
+  }
+  while (!writer_ || writer_->accepts()) {
+    auto frame = assembly_.next_frame(Clock::now());
+    if (!frame) break;
+    if (writer_) {
+      writer_->write(std::move(*frame), image_size_);
+    } else {
+      say_shown(frame->frame, frame->fresh_modules);
+    }
+  }
+}
+
+void Daemon::say_shown(std::uint64_t frame, int fresh_modules) {
+  proto::Envelope shown;
+  shown.mutable_shown()->set_frame(frame);
+  shown.mutable_shown()->set_modules(static_cast<std::uint32_t>(fresh_modules));
+  if (const Status sent = control_.send(shown); !sent)
+    log::warn("frame {} is shown, but: {}", frame, sent.error().message());
+}
+
+void Daemon::give_credits() {
+  for (auto node = peer_of_node_.begin(); node != peer_of_node_.end();) {
+    const auto here = node++;
+    const std::uint32_t images = assembly_.credit_for(here->second);
+    if (images == 0) continue;
+    proto::Envelope credit;
+    credit.mutable_credit()->set_images(images);
+    const Status sent = images_.send_to(here->second, credit);
+    if (sent) continue;
+    log::info("node \"{}\" sends no more images: {}", here->first, sent.error().message());
+    assembly_.node_left(here->second);
+    peer_of_node_.erase(here);
+  }
+}
+
+void Daemon::warn_of_image(const Error& error) {
+  ++refused_images_;
+  if (Clock::now() - last_warning_ < kWarningPause) return;
+  last_warning_ = Clock::now();
+  log::warn("{} (so far {} images refused)", error.message(), refused_images_);
+}
+
+}  // namespace
+
+Status run_daemon(const DaemonOptions& options) {
+  const Signals signals;
+  wire::Context context;
+  LFD_TRY(wire::Socket images, wire::bind_router(context, options.images, wire::kImages));
+  LFD_TRY(wire::Socket control, wire::connect_dealer(context, options.controller));
+  Daemon daemon(options, context, std::move(images), std::move(control));
+  return daemon.run(signals);
+}
+
+}  // namespace lfd::display

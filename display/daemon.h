@@ -1,0 +1,25 @@
+// The virtual display as a process: joins the controller, takes images from nodes, shows whole frames.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+
+namespace lfd::display {
+
+struct DaemonOptions {
+  std::string controller;                    // control endpoint
+  std::string images = "tcp://127.0.0.1:*";  // where nodes send to; bound here
+  std::string name = "display";
+  std::string calibration_hash;              // of a calibration that the controller's must equal; empty: any
+  std::optional<std::filesystem::path> out;  // where frames are written; absent: nowhere
+};
+
+// Runs until SIGTERM, SIGINT or the controller's Quit (success), a refusal by the controller, or an endpoint that
+// cannot be used. A controller that is away is waited for. Call it before any thread starts: it blocks those two
+// signals.
+Status run_daemon(const DaemonOptions& options);
+
+}  // namespace lfd::display

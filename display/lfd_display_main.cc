@@ -1,0 +1,124 @@
+// lfd-display: the virtual display, and what can be made of the frames that it wrote.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "base/log.h"
+#include "base/version.h"
+#include "display/contact_sheet.h"
+#include "display/daemon.h"
+#include "display/frame_folder.h"
+#include "display/viewer.h"
+#include "proto/calibration_file.h"
+#include "proto/deployment_file.h"
+#include "proto/endpoint.h"
+#include "proto/pictures/png.h"
+
+namespace lfd::display {
+namespace {
+
+constexpr int kFailed = 1, kWrongUse = 2;
+
+struct ViewOptions {
+  std::string frame_folder, display_file, out;
+  std::vector<double> eye;
+  int width_px = 0, height_px = 0;
+};
+
+struct SheetOptions {
+  std::string frame_folder, out;
+  int tile_width_px = 240;
+};
+
+Status view(const ViewOptions& options) {
+  LFD_TRY(const DisplayCalibration display, load_calibration(options.display_file));
+  LFD_TRY(const auto pictures, read_color_images(options.frame_folder, static_cast<int>(display.modules.size())));
+  const int width = options.width_px > 0 ? options.width_px : display.image.width;
+  const double shape = display.screen.height_m / display.screen.width_m;
+  const int height =
+      options.height_px > 0 ? options.height_px : std::max(1, static_cast<int>(std::lround(width * shape)));
+  const Eye eye{options.eye[0], options.eye[1], options.eye[2]};
+  LFD_TRY(const Picture8 picture, viewer_picture(display, pointers_to(pictures), eye, width, height));
+  return write_png(options.out, picture, PngChannels::kRgb);
+}
+
+Status sheet(const SheetOptions& options) {
+  LFD_TRY(const auto pictures, read_color_images(options.frame_folder));
+  LFD_TRY(const Picture8 picture, contact_sheet(pointers_to(pictures), options.tile_width_px));
+  return write_png(options.out, picture, PngChannels::kRgb);
+}
+
+Status run(DaemonOptions options, const std::string& deployment_file, bool images_given) {
+  if (!deployment_file.empty()) {
+    LFD_TRY(const Deployment deployment, load_deployment(deployment_file));
+    options.calibration_hash = calibration_hash(deployment.display);
+    if (!images_given) options.images = deployment.addresses.images;
+    if (options.controller.empty() && is_fixed_endpoint(deployment.addresses.control)) {
+      options.controller = deployment.addresses.control;
+    }
+  }
+  if (options.controller.empty())
+    return Error("where is the controller? Say --controller, or give its port in the deployment");
+  return run_daemon(options);
+}
+
+void add_view(CLI::App& app, ViewOptions& options) {
+  auto* command = app.add_subcommand("view", "Write what a viewer sees of a frame that was written with --out");
+  command->add_option("--frames-dir", options.frame_folder, "The frame's folder, e.g. out/frame-0000")->required();
+  command->add_option("--display", options.display_file, "Calibration file of the display (*.textproto)")->required();
+  command->add_option("--eye", options.eye, "X,Y,Z of the eye in physical metres; z is the distance from the screen")
+      ->required()
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--out", options.out, "PNG file to write")->required();
+  command->add_option("--width", options.width_px,
+                      "Pixels over the screen's width (default: those of a module's image)");
+  command->add_option("--height", options.height_px, "Pixels over the screen's height (default: square pixels)");
+}
+
+void add_sheet(CLI::App& app, SheetOptions& options) {
+  auto* command =
+      app.add_subcommand("sheet", "Put all modules of a frame that was written with --out into one picture");
+  command->add_option("--frames-dir", options.frame_folder, "The frame's folder, e.g. out/frame-0000")->required();
+  command->add_option("--out", options.out, "PNG file to write")->required();
+  command->add_option("--tile-width", options.tile_width_px, "Pixels over each module's width")->capture_default_str();
+}
+
+int main_of_display(int argc, char** argv) {
+  CLI::App app(
+      "The virtual light-field display: joins a controller, collects whole frames of module images and writes them.");
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(0, 1);
+  DaemonOptions daemon;
+  ViewOptions view_options;
+  SheetOptions sheet_options;
+  std::string deployment, out, level = "info";
+  app.add_option("DEPLOYMENT", deployment,
+                 "Deployment file: addresses, and the calibration that the controller's must equal");
+  app.add_option("--controller", daemon.controller, "The controller's control endpoint, e.g. tcp://127.0.0.1:5555");
+  auto* images = app.add_option("--images", daemon.images, "Endpoint to take images at; port * chooses a free one")
+                     ->capture_default_str();
+  app.add_option("--out", out, "Write every shown frame to this folder: frame-0000/module-000.color.png, ...");
+  app.add_option("--name", daemon.name, "Name of this display")->capture_default_str();
+  app.add_option("--log", level, "trace, debug, info, warn, error or off")->capture_default_str();
+  add_view(app, view_options);
+  add_sheet(app, sheet_options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUse;
+  }
+  start_log(daemon.name, level);
+  if (!out.empty()) daemon.out = out;
+  const Status status = app.got_subcommand("view")    ? view(view_options)
+                        : app.got_subcommand("sheet") ? sheet(sheet_options)
+                                                      : run(daemon, deployment, images->count() > 0);
+  if (status) return 0;
+  std::fprintf(stderr, "lfd-display: %s\n", status.error().message().c_str());
+  return kFailed;
+}
+
+}  // namespace
+}  // namespace lfd::display
+
+int main(int argc, char** argv) { return lfd::display::main_of_display(argc, argv); }
