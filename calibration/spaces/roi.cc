@@ -62,4 +62,8 @@ RegionOfInterest fit_to_screen(Point3<World> low, Point3<World> high, double scr
   return roi;
 }
 
+Point3<World> position_origin(const RegionOfInterest& roi) {
+  return glm::length(to_glm(roi.world_centre)) > 100 * roi.diagonal_m() ? roi.world_centre : Point3<World>{};
+}
+
 }  // namespace lfd

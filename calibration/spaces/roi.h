@@ -22,7 +22,8 @@ struct RegionOfInterest {
   double diagonal_m() const { return glm::length(world_size); }
 };
 
-// Refuses sizes that are not positive and finite, centres that are not finite, orientations that are not of unit length (1e-6).
+// Refuses sizes that are not positive and finite, centres that are not finite, orientations that are not of unit length
+// (1e-6).
 Status validate(const RegionOfInterest& roi);
 
 // The affine map that takes the world box to the physical one. `roi` is valid.
@@ -31,8 +32,13 @@ Affine<Physical, World> physical_from_world(const RegionOfInterest& roi);
 // Its inverse, built from the boxes themselves, so that it is as accurate as the map.
 Affine<World, Physical> world_from_physical(const RegionOfInterest& roi);
 
-// The default: the box `low`..`high` of the world, uniformly scaled to fit a screen of this size, centred at the screen's centre.
-// A box without extent in some direction is given a small one (1e-6 of its diagonal; 1 m where it is a point).
+// The default: the box `low`..`high` of the world, uniformly scaled to fit a screen of this size, centred at the
+// screen's centre. A box without extent in some direction is given a small one (1e-6 of its diagonal; 1 m where it is a
+// point).
 RegionOfInterest fit_to_screen(Point3<World> low, Point3<World> high, double screen_width_m, double screen_height_m);
+
+// What position buffers are measured from: the world's origin, or the centre of the region of interest where that lies
+// more than 100 diagonals away from it (single precision would not hold the positions there).
+Point3<World> position_origin(const RegionOfInterest& roi);
 
 }  // namespace lfd

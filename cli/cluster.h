@@ -1,0 +1,66 @@
+// A whole display as child processes of this one: controller, render nodes and virtual display, on one machine.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/process.h"
+#include "base/result.h"
+#include "base/signals.h"
+#include "proto/deployment_file.h"
+
+namespace lfd {
+
+// What a user can say about a cluster on a command line, beside its deployment file.
+struct ClusterOptions {
+  std::filesystem::path deployment;
+  std::string scene, display;        // files instead of the deployment's; may be empty
+  std::string roi;                   // cx,cy,cz,sx,sy,sz; may be empty
+  std::string plan;                  // "everything", "needed" or empty
+  std::vector<std::string> modules;  // numbers and ranges of those that are drawn at all; empty: all
+  bool no_ao = false;
+  bool idle = false;                     // no frame until frames are asked for
+  std::filesystem::path images;          // where the display writes every frame; empty: nowhere
+  std::string log_level = "info";
+  bool quiet = false;                    // the lines of the children are not printed, only kept
+};
+
+class Cluster {
+ public:
+  // Starts every process; they find each other in their own time. Lines of the children are printed on standard error with their
+  // names. Errors: the deployment file, a program that is missing, a port that is taken (named with its owner).
+  static Result<Cluster> start(const ClusterOptions& options);
+
+  const Deployment& deployment() const { return deployment_; }
+  const std::string& endpoint() const { return endpoint_; }  // of the controller
+  const std::vector<int>& modules() const { return modules_; }  // that are drawn, ascending
+
+  // Waits until a child ends, a signal comes or `at_most` has passed.
+  void wait(const StopSignals& signals, Clock::duration at_most) const;
+
+  // A child that has ended, in words ("node left: exit code 1: error: ..."); absent while all run.
+  std::optional<std::string> ended();
+
+  // Waits until all have ended by themselves, as after a client's quit; an error names who failed or did not end.
+  Status finish(Clock::duration at_most);
+
+  // Ends all: SIGTERM to everyone at once, SIGKILL to whoever still runs after `patience`.
+  void stop(Clock::duration patience);
+
+ private:
+  Cluster() = default;
+  Status add(const ClusterOptions& options, const std::string& name, std::vector<std::string> command);
+
+  Deployment deployment_;
+  std::string endpoint_;
+  std::vector<int> modules_;
+  std::vector<std::unique_ptr<Process>> processes_;  // the controller first
+};
+
+// How long processes that were asked to end may take: all are gone within 2 s.
+inline constexpr Clock::duration kStopPatience = std::chrono::milliseconds(1500);
+
+}  // namespace lfd

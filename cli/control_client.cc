@@ -1,0 +1,59 @@
+// Requests over a dealer socket.
+#include "cli/control_client.h"
+
+#include <algorithm>
+
+#include "base/log.h"
+#include "proto/wire/poll.h"
+
+namespace lfd {
+
+Result<ControlClient> ControlClient::connect(const std::string& endpoint) {
+  auto context = std::make_unique<wire::Context>();
+  LFD_TRY(wire::Socket socket, wire::connect_dealer(*context, endpoint));
+  return ControlClient(endpoint, std::move(context), std::move(socket));
+}
+
+ControlClient::ControlClient(std::string endpoint, std::unique_ptr<wire::Context> context, wire::Socket socket)
+    : endpoint_(std::move(endpoint)), context_(std::move(context)), socket_(std::move(socket)) {}
+
+Result<std::uint64_t> ControlClient::send(proto::Request request, Clock::duration at_most) {
+  const auto deadline = Clock::now() + at_most;
+  request.set_id(++last_id_);
+  proto::Envelope envelope;
+  *envelope.mutable_request() = std::move(request);
+  while (true) {
+    const Status sent = socket_.send(envelope);
+    if (sent) return last_id_;
+    if (Clock::now() >= deadline) return Error(fmt::format("no controller answers at {}", endpoint_));
+    wire::wait({&socket_}, {}, std::chrono::milliseconds(10));  // connections are made in the background
+  }
+}
+
+std::optional<proto::Reply> ControlClient::receive(std::uint64_t id, Clock::duration at_most) {
+  const auto deadline = Clock::now() + at_most;
+  while (true) {
+    while (auto message = socket_.receive()) {
+      if (message->envelope.has_refused()) {
+        proto::Reply reply;
+        reply.set_error(message->envelope.refused().reason());
+        return reply;
+      }
+      if (message->envelope.has_reply() && message->envelope.reply().id() == id) return message->envelope.reply();
+    }
+    const auto now = Clock::now();
+    if (now >= deadline) return std::nullopt;
+    wire::wait({&socket_}, {}, deadline - now);
+  }
+}
+
+Result<proto::Reply> ControlClient::ask(const proto::Request& request, Clock::duration at_most) {
+  const auto deadline = Clock::now() + at_most;
+  LFD_TRY(const std::uint64_t id, send(request, at_most));
+  const auto reply = receive(id, deadline - Clock::now());
+  if (!reply) return Error(fmt::format("no controller answers at {}", endpoint_));
+  if (!reply->error().empty()) return Error(reply->error());
+  return *reply;
+}
+
+}  // namespace lfd

@@ -1,0 +1,37 @@
+// A conversation with a running controller: requests and their replies.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/clock.h"
+#include "base/result.h"
+#include "proto/wire/socket.h"
+
+namespace lfd {
+
+class ControlClient {
+ public:
+  // Errors: the endpoint cannot be read.
+  static Result<ControlClient> connect(const std::string& endpoint);
+
+  // Sends a request, once the controller is there; its number is filled in and returned. Errors: nobody is there in time.
+  Result<std::uint64_t> send(proto::Request request, Clock::duration at_most);
+
+  // The reply to request `id`; absent where none has come in time. Replies to others are left out.
+  std::optional<proto::Reply> receive(std::uint64_t id, Clock::duration at_most);
+
+  // Both. A reply that tells an error is an error.
+  Result<proto::Reply> ask(const proto::Request& request, Clock::duration at_most);
+
+ private:
+  ControlClient(std::string endpoint, std::unique_ptr<wire::Context> context, wire::Socket socket);
+
+  std::string endpoint_;
+  std::unique_ptr<wire::Context> context_;
+  wire::Socket socket_;
+  std::uint64_t last_id_ = 0;
+};
+
+}  // namespace lfd

@@ -1,0 +1,166 @@
+// Opening, the loop, and the way of messages.
+#include "controller/daemon/daemon.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/log.h"
+#include "base/version.h"
+#include "controller/daemon/asset_server.h"
+#include "proto/calibration_file.h"
+#include "proto/wire/poll.h"
+
+namespace lfd::controller {
+namespace {
+
+constexpr int kHeartbeatsOfPatience = 6;
+constexpr auto kLastWords = std::chrono::milliseconds(300);
+
+Membership::Rules rules_of(const Deployment& deployment) {
+  Membership::Rules rules{.version = kVersion,
+                          .calibration_hash = calibration_hash(deployment.display),
+                          .nodes = {},
+                          .patience = kHeartbeatsOfPatience * deployment.pacing.heartbeat};
+  for (const NodeShare& node : deployment.nodes) rules.nodes.push_back(node.name);
+  return rules;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Daemon>> Daemon::open(Options options) {
+  LFD_TRY(Assignment assignment, assign_modules(options.deployment, options.only_modules));
+  LFD_TRY(Stage stage, Stage::of(options.deployment));
+  auto context = std::make_unique<wire::Context>();
+  LFD_TRY(Links links, Links::open(*context, options.deployment.addresses));
+  return std::unique_ptr<Daemon>(
+      new Daemon(std::move(options), std::move(links), std::move(context), std::move(stage), std::move(assignment)));
+}
+
+Daemon::Daemon(Options options, Links links, std::unique_ptr<wire::Context> context, Stage stage, Assignment assignment)
+    : options_(std::move(options)),
+      context_(std::move(context)),
+      links_(std::move(links)),
+      stage_(std::move(stage)),
+      assignment_(std::move(assignment)),
+      members_(rules_of(options_.deployment)),
+      barrier_(options_.deployment.pacing.deadline),
+      pacing_(options_.deployment.pacing.frames_per_second, options_.idle) {}
+
+Status Daemon::run(StopSignals& signals) {
+  const Deployment& deployment = options_.deployment;
+  if (deployment.scene_file) {
+    loader_.start(*deployment.scene_file, {}, 0);
+  } else {
+    loader_.start(deployment.message.scene().made(), {}, 0);
+  }
+  next_pulse_ = Clock::now();
+  while (!end_) {
+    wire::wait({&links_.control, &links_.bulk}, {signals.descriptor(), loader_.descriptor()}, wake_at() - Clock::now());
+    const Clock::time_point now = Clock::now();
+    while (const auto message = links_.control.receive()) take_control(*message, now);
+    while (const auto message = links_.bulk.receive()) {
+      if (stage_.has_scene()) serve_asset(links_.bulk, *message, stage_.assets());
+    }
+    if (auto arrival = loader_.take()) LFD_TRY_STATUS(take_scene(*std::move(arrival), now));
+    if (const auto signal = signals.take()) end_ = fmt::format("signal {}", *signal);
+    tick(now);
+  }
+  log::info("ends: {}", *end_);
+  proto::Envelope quit;
+  quit.mutable_quit()->set_reason(*end_);
+  publish(quit);
+  links_.state.linger(kLastWords);
+  links_.control.linger(kLastWords);
+  return {};
+}
+
+void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
+  const proto::Envelope& envelope = message.envelope;
+  const Membership::Heard heard = members_.heard(message.peer, now);
+  const Peer* peer = members_.at(message.peer);
+  if (heard == Membership::Heard::kBack) peer_is_back(*peer);
+  switch (envelope.body_case()) {
+    case proto::Envelope::kJoin:
+      return take_join(message, now);
+    case proto::Envelope::kRequest:
+      return take_request(message, now);
+    case proto::Envelope::kHeartbeat:
+      return take_heartbeat(message);
+    case proto::Envelope::kSnapshotRequest:
+      if (peer != nullptr && stage_.has_scene()) send_snapshot(message.peer);
+      return;
+    case proto::Envelope::kDrawn:
+      if (peer != nullptr) barrier_.drawn(peer->name, envelope.drawn().frame());
+      return;
+    case proto::Envelope::kReady:
+      if (peer == nullptr) return;
+      log_.reported(envelope.ready().frame(), envelope.ready().report());
+      return barrier_.ready(peer->name, envelope.ready().frame());
+    case proto::Envelope::kShown:
+      if (peer != nullptr && peer->role == proto::DISPLAY) log_.shown(envelope.shown().frame(), now);
+      return;
+    case proto::Envelope::kLeave:
+      if (const auto name = members_.leave(message.peer)) peer_is_gone(*name, envelope.leave().reason().c_str());
+      return;
+    default:
+      log::debug("control: a message that nobody sends to a controller");
+      return;
+  }
+}
+
+Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
+  Result<proto::Update> update =
+      arrival.scene ? stage_.show(*std::move(arrival.scene)) : Result<proto::Update>(arrival.scene.error());
+  if (update) {
+    log::info("scene: {} is shown", stage_.store().state().scene().name());
+    publish(*update);
+    for (const Peer* peer : members_.peers()) {
+      if (peer->lives() && !peer->last_heard) welcome(*peer, now);
+    }
+  } else {
+    log::error("scene: {}", update.error().message());
+  }
+  if (!arrival.asker.empty()) {
+    reply(arrival.asker, arrival.request_id, update ? Status() : Status(update.error()));
+  } else if (!update) {
+    return update.error().within("scene");
+  }
+  return {};
+}
+
+void Daemon::tick(Clock::time_point now) {
+  for (const std::string& name : members_.expire(now)) peer_is_gone(name, "it was silent for too long");
+  if (now >= next_pulse_) {
+    proto::Envelope pulse;
+    pulse.mutable_pulse()->set_sequence(stage_.store().sequence());
+    publish(pulse);
+    next_pulse_ = now + options_.deployment.pacing.heartbeat;
+  }
+  advance(now);
+}
+
+Clock::time_point Daemon::wake_at() const {
+  Clock::time_point wake = next_pulse_;
+  if (const auto deadline = barrier_.next_deadline()) wake = std::min(wake, *deadline);
+  const auto step = pacing_.next();
+  if (step && barrier_.may_begin() && *step > Clock::now()) wake = std::min(wake, *step);
+  return wake;
+}
+
+void Daemon::publish(const proto::Envelope& envelope) {
+  if (const Status sent = links_.state.send(envelope); !sent) log::error("state: {}", sent.error().message());
+}
+
+void Daemon::publish(const proto::Update& update) {
+  proto::Envelope envelope;
+  *envelope.mutable_update() = update;
+  publish(envelope);
+}
+
+void Daemon::send(const std::string& address, const proto::Envelope& envelope) {
+  if (const Status sent = links_.control.send_to(address, envelope); !sent) {
+    log::warn("control: {}", sent.error().message());
+  }
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,105 @@
+// The controller's loop: what comes in on sockets is told to the deciding classes, what they decide goes out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/signals.h"
+#include "controller/assignment.h"
+#include "controller/daemon/links.h"
+#include "controller/daemon/scene_loader.h"
+#include "controller/frame_barrier.h"
+#include "controller/frame_log.h"
+#include "controller/membership.h"
+#include "controller/pacing.h"
+#include "controller/stage.h"
+
+namespace lfd::controller {
+
+class Daemon {
+ public:
+  struct Options {
+    Deployment deployment;
+    std::vector<std::string> only_modules;  // empty: all
+    bool idle = false;                      // no frame until frames are asked for
+  };
+
+  // Binds the sockets; nothing is loaded yet.
+  static Result<std::unique_ptr<Daemon>> open(Options options);
+
+  const std::string& control_endpoint() const { return links_.control.endpoint(); }
+
+  // Runs until a signal or a client ends it; the error is that of the first scene. Says Quit to all before it returns.
+  Status run(StopSignals& signals);
+
+  // True where a scene was being loaded at the end: its thread cannot be waited for.
+  bool loading() const { return loader_.busy(); }
+
+ private:
+  // A client's wish for a number of frames, and how far it is.
+  struct FramesAsked {
+    std::string client;
+    std::uint64_t id = 0;
+    std::uint64_t first = 0;
+    std::uint64_t count = 0;
+    bool time_modules = false;
+  };
+
+  Daemon(Options options, Links links, std::unique_ptr<wire::Context> context, Stage stage, Assignment assignment);
+
+  // daemon.cc: the loop
+  void take_control(const wire::Message& message, Clock::time_point now);
+  Status take_scene(SceneArrival arrival, Clock::time_point now);
+  void tick(Clock::time_point now);
+  Clock::time_point wake_at() const;
+  void publish(const proto::Envelope& envelope);
+  void publish(const proto::Update& update);
+  void send(const std::string& address, const proto::Envelope& envelope);
+
+  // daemon_peers.cc: who takes part
+  void take_join(const wire::Message& message, Clock::time_point now);
+  void take_heartbeat(const wire::Message& message);
+  void welcome(const Peer& peer, Clock::time_point now);
+  void peer_is_gone(const std::string& name, const char* why);
+  void peer_is_back(const Peer& peer);
+  void send_snapshot(const std::string& address);
+  void publish_images_endpoint();
+  std::string images_endpoint() const;
+  std::vector<std::string> drawing_nodes() const;  // ready, and with modules
+
+  // daemon_frames.cc: the life of frames
+  void advance(Clock::time_point now);
+  bool may_begin(Clock::time_point now) const;
+  void begin_frame(Clock::time_point now);
+  void finish(const FrameBarrier::Swap& swap, Clock::time_point now);
+  void answer_frames_asked(Clock::time_point now);
+  bool has_display_sink() const;
+
+  // daemon_requests.cc: control clients
+  void take_request(const wire::Message& message, Clock::time_point now);
+  Result<bool> start_frames(const wire::Message& message);
+  Result<bool> start_scene(const wire::Message& message);
+  proto::Status status(Clock::time_point now) const;
+  void reply(const std::string& client, std::uint64_t id, const Status& done);
+
+  Options options_;
+  std::unique_ptr<wire::Context> context_;
+  Links links_;
+  SceneLoader loader_;
+  Stage stage_;
+  Assignment assignment_;
+  Membership members_;
+  FrameBarrier barrier_;
+  controller::Pacing pacing_;
+  FrameLog log_;
+  std::optional<FramesAsked> asked_;
+  std::set<std::string> late_;  // nodes that were missing in the last frame swapped
+  std::optional<Clock::time_point> last_swap_;
+  Clock::time_point next_pulse_;
+  std::optional<std::string> end_;  // why the loop ends
+};
+
+}  // namespace lfd::controller

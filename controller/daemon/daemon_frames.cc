@@ -1,0 +1,90 @@
+// Begin, swap, and the answer to who asked for frames.
+#include <algorithm>
+
+#include "base/log.h"
+#include "controller/daemon/daemon.h"
+
+namespace lfd::controller {
+
+bool Daemon::has_display_sink() const { return options_.deployment.message.sink() == proto::Deployment::DISPLAY; }
+
+void Daemon::advance(Clock::time_point now) {
+  while (true) {
+    if (const auto swap = barrier_.swap(now)) {
+      finish(*swap, now);
+    } else if (may_begin(now)) {
+      begin_frame(now);
+    } else {
+      break;
+    }
+  }
+  answer_frames_asked(now);
+}
+
+bool Daemon::may_begin(Clock::time_point now) const {
+  if (!stage_.has_scene() || !pacing_.due(now) || !barrier_.may_begin()) return false;
+  if (has_display_sink() && members_.display() == nullptr) return false;
+  const std::vector<std::string> nodes = drawing_nodes();
+  if (nodes.empty()) return false;
+  if (!asked_) return true;
+  // Who asks for frames gets whole ones: a node that has not come yet is waited for, one that died is not.
+  return std::ranges::all_of(assignment_, [&](const auto& entry) {
+    const Phase phase = members_.find(entry.first)->phase;
+    return entry.second.empty() || phase == Phase::kReady || phase == Phase::kOut;
+  });
+}
+
+void Daemon::begin_frame(Clock::time_point now) {
+  if (const auto update = stage_.animate(barrier_.next_frame())) publish(*update);
+  const std::uint64_t frame = barrier_.begin(drawing_nodes(), now);
+  pacing_.begun(now);
+  log_.begun(frame, stage_.roi(), stage_.store().hash(), now);
+  proto::Envelope envelope;
+  proto::BeginFrame& begin = *envelope.mutable_begin();
+  begin.set_frame(frame);
+  begin.set_sequence(stage_.store().sequence());
+  begin.set_time_modules(asked_ && asked_->time_modules);
+  publish(envelope);
+  log::debug("frame {}: begin", frame);
+}
+
+void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
+  const std::vector<std::uint32_t> stale = modules_without(assignment_, swap.ready);
+  proto::Envelope envelope;
+  envelope.mutable_swap()->set_frame(swap.frame);
+  for (const std::uint32_t module : stale) envelope.mutable_swap()->add_stale_modules(module);
+  publish(envelope);
+  log_.swapped(swap, stale, now);
+  if (!has_display_sink()) log_.shown(swap.frame, now);
+  last_swap_ = now;
+  late_ = {swap.missing.begin(), swap.missing.end()};
+  log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun),
+             stale.size());
+}
+
+void Daemon::answer_frames_asked(Clock::time_point now) {
+  if (!asked_) return;
+  const std::uint64_t end = asked_->first + asked_->count;
+  const bool swapped = log_.last_swapped() && *log_.last_swapped() + 1 >= end;
+  const bool shown = swapped && log_.all_shown(asked_->first, asked_->count);
+  // A display that died, or that lost images to a deadline, will not show the frame.
+  const Clock::duration patience = 6 * options_.deployment.pacing.heartbeat;
+  const bool may_drop = options_.deployment.pacing.deadline.count() > 0;
+  const bool never_shown = members_.display() == nullptr || (may_drop && last_swap_ && now - *last_swap_ > patience);
+  const bool stuck = barrier_.in_flight() == 0 && std::ranges::all_of(assignment_, [&](const auto& entry) {
+                       return entry.second.empty() || members_.find(entry.first)->phase == Phase::kOut;
+                     });
+  const bool complete = swapped && (shown || never_shown);
+  if (!complete && !stuck) return;
+
+  proto::Envelope envelope;
+  proto::Reply& reply = *envelope.mutable_reply();
+  reply.set_id(asked_->id);
+  if (!complete) reply.set_error("every node that draws is out");
+  for (const proto::FrameReport& report : log_.reports(asked_->first, asked_->count)) *reply.add_frame() = report;
+  send(asked_->client, envelope);
+  if (!complete) pacing_.ask_for(0);
+  asked_.reset();
+}
+
+}  // namespace lfd::controller

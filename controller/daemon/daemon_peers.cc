@@ -1,0 +1,98 @@
+// Nodes and the display: joining, keeping up, going.
+#include <algorithm>
+
+#include "base/log.h"
+#include "controller/daemon/daemon.h"
+#include "proto/calibration_file.h"
+
+namespace lfd::controller {
+
+void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
+  const proto::Join& join = message.envelope.join();
+  const Result<std::string> name = members_.join(join, message.peer);
+  if (!name) {
+    log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), name.error().message());
+    proto::Envelope refused;
+    refused.mutable_refused()->set_reason(name.error().message());
+    return send(message.peer, refused);
+  }
+  barrier_.gone(*name);  // whatever it drew before it joined anew is lost
+  log::info("\"{}\" joins (process {})", *name, join.process());
+  const Peer& peer = *members_.find(*name);
+  if (peer.role == proto::DISPLAY) publish_images_endpoint();
+  if (stage_.has_scene()) welcome(peer, now);
+}
+
+void Daemon::take_heartbeat(const wire::Message& message) {
+  const Peer* peer = members_.at(message.peer);
+  if (peer == nullptr) {
+    proto::Envelope refused;
+    refused.mutable_refused()->set_reason("not a member of this cluster");
+    return send(message.peer, refused);
+  }
+  const std::string& hash = message.envelope.heartbeat().state_hash();
+  const Phase before = peer->phase;
+  members_.holds(message.peer, hash, stage_.store().remembers(hash));
+  if (peer->phase != before) log::info("\"{}\" holds the state", peer->name);
+}
+
+void Daemon::welcome(const Peer& peer, Clock::time_point now) {
+  const Deployment& deployment = options_.deployment;
+  proto::Envelope envelope;
+  proto::Welcome& welcome = *envelope.mutable_welcome();
+  welcome.set_state_endpoint(links_.state.endpoint());
+  welcome.set_bulk_endpoint(links_.bulk.endpoint());
+  *welcome.mutable_display() = write_calibration(deployment.display);
+  if (peer.role == proto::NODE) {
+    for (const std::uint32_t module : assignment_.at(peer.name)) welcome.add_modules(module);
+  } else {
+    for (const std::uint32_t module : modules_without(assignment_, {})) welcome.add_modules(module);
+  }
+  welcome.set_images_endpoint(images_endpoint());
+  welcome.set_heartbeat_ms(static_cast<std::uint32_t>(deployment.pacing.heartbeat.count()));
+  welcome.set_may_drop(deployment.pacing.deadline.count() > 0);
+  welcome.set_sink(static_cast<std::uint32_t>(deployment.message.sink()));
+  *welcome.mutable_snapshot()->mutable_state() = stage_.store().state();
+  welcome.mutable_snapshot()->set_images_endpoint(images_endpoint());
+  send(peer.address, envelope);
+  members_.welcomed(peer.name, now);
+}
+
+void Daemon::peer_is_gone(const std::string& name, const char* why) {
+  log::warn("\"{}\" is out: {}", name, why);
+  barrier_.gone(name);
+  late_.erase(name);
+  if (members_.find(name)->role == proto::DISPLAY) publish_images_endpoint();
+}
+
+void Daemon::peer_is_back(const Peer& peer) {
+  log::info("\"{}\" is heard again", peer.name);
+  if (stage_.has_scene()) send_snapshot(peer.address);
+  if (peer.role == proto::DISPLAY) publish_images_endpoint();
+}
+
+void Daemon::send_snapshot(const std::string& address) {
+  proto::Envelope envelope;
+  *envelope.mutable_snapshot()->mutable_state() = stage_.store().state();
+  envelope.mutable_snapshot()->set_images_endpoint(images_endpoint());
+  send(address, envelope);
+}
+
+void Daemon::publish_images_endpoint() {
+  proto::Update update;
+  update.set_images_endpoint(images_endpoint());
+  publish(stage_.number(std::move(update)));
+}
+
+std::string Daemon::images_endpoint() const {
+  const Peer* display = members_.display();
+  return display == nullptr ? "" : display->images_endpoint;
+}
+
+std::vector<std::string> Daemon::drawing_nodes() const {
+  std::vector<std::string> nodes = members_.ready_nodes();
+  std::erase_if(nodes, [&](const std::string& node) { return assignment_.at(node).empty(); });
+  return nodes;
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,104 @@
+// Requests of control clients and their replies.
+#include "base/log.h"
+#include "controller/daemon/daemon.h"
+
+namespace lfd::controller {
+namespace {
+
+constexpr std::uint32_t kMostFrames = FrameLog::kRemembered;  // of one request: their reports have to be remembered
+
+}  // namespace
+
+void Daemon::reply(const std::string& client, std::uint64_t id, const Status& done) {
+  proto::Envelope envelope;
+  envelope.mutable_reply()->set_id(id);
+  if (!done) envelope.mutable_reply()->set_error(done.error().message());
+  send(client, envelope);
+}
+
+void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
+  const proto::Request& request = message.envelope.request();
+  const auto change = [&](const Result<proto::Update>& update) {
+    if (update) publish(*update);
+    reply(message.peer, request.id(), update ? Status() : Status(update.error()));
+  };
+  // True where the answer comes later.
+  const auto start = [&](const Result<bool>& started) {
+    if (!started) reply(message.peer, request.id(), started.error());
+  };
+  switch (request.what_case()) {
+    case proto::Request::kStatus: {
+      proto::Envelope envelope;
+      envelope.mutable_reply()->set_id(request.id());
+      *envelope.mutable_reply()->mutable_status() = status(now);
+      return send(message.peer, envelope);
+    }
+    case proto::Request::kRoi:
+      return change(stage_.set_roi(request.roi()));
+    case proto::Request::kRender:
+      return change(stage_.set_render(request.render()));
+    case proto::Request::kAo:
+      return change(stage_.set_ao(request.ao()));
+    case proto::Request::kSceneFile:
+      return start(start_scene(message));
+    case proto::Request::kFrames:
+      return start(start_frames(message));
+    case proto::Request::kQuit:
+      end_ = "a client asked for it";
+      return reply(message.peer, request.id(), {});
+    case proto::Request::WHAT_NOT_SET:
+      return reply(message.peer, request.id(), Error("an empty request"));
+  }
+}
+
+Result<bool> Daemon::start_scene(const wire::Message& message) {
+  if (loader_.busy()) return Error("another scene is being loaded");
+  const proto::Request& request = message.envelope.request();
+  loader_.start(std::filesystem::path(request.scene_file()), message.peer, request.id());
+  return true;
+}
+
+Result<bool> Daemon::start_frames(const wire::Message& message) {
+  const proto::Request& request = message.envelope.request();
+  const proto::FramesRequest& frames = request.frames();
+  if (asked_) return Error("frames are being drawn for another client");
+  if (frames.count() == 0 || frames.count() > kMostFrames) {
+    return Error(fmt::format("count: {}; 1 to {} frames are possible", frames.count(), kMostFrames));
+  }
+  asked_ = FramesAsked{.client = message.peer,
+                       .id = request.id(),
+                       .first = barrier_.next_frame(),
+                       .count = frames.count(),
+                       .time_modules = frames.time_modules()};
+  pacing_.ask_for(frames.count());
+  if (const auto update = stage_.set_buffers(frames.buffers())) publish(*update);
+  return true;
+}
+
+proto::Status Daemon::status(Clock::time_point now) const {
+  proto::Status status;
+  const proto::State& state = stage_.store().state();
+  status.set_deployment(options_.deployment.message.name());
+  status.set_scene(state.scene().name());
+  status.set_frame(log_.last_swapped().value_or(0));
+  status.set_sequence(state.sequence());
+  status.set_state_hash(stage_.store().hash());
+  status.set_frames_per_second(log_.frames_per_second(now));
+  *status.mutable_roi() = state.roi();
+  *status.mutable_render() = state.render();
+  status.set_late_frames(log_.late_frames());
+  status.set_stale_modules(static_cast<std::uint32_t>(log_.stale_modules().size()));
+  for (const Peer* peer : members_.peers()) {
+    proto::PeerStatus& entry = *status.add_peer();
+    entry.set_role(peer->role);
+    entry.set_name(peer->name);
+    entry.set_state(peer->phase == Phase::kReady && late_.contains(peer->name) ? "late" : name_of(peer->phase));
+    entry.set_state_hash(peer->state_hash);
+    entry.set_process(peer->process);
+    if (peer->role != proto::NODE) continue;
+    for (const std::uint32_t module : assignment_.at(peer->name)) entry.add_module(module);
+  }
+  return status;
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,100 @@
+// lfd-controller: decides what a light-field display shows, and when.
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/log.h"
+#include "base/signals.h"
+#include "cli/command_line.h"
+#include "controller/daemon/daemon.h"
+
+namespace lfd::controller {
+namespace {
+
+struct Arguments {
+  std::string deployment;
+  std::string scene, display;
+  std::vector<double> roi;
+  std::string plan, sink;
+  bool no_ao = false;
+  bool print_endpoint = false;
+  std::string log_level = "info";
+  Daemon::Options options;
+};
+
+void add_options(CLI::App& app, Arguments& a) {
+  app.add_option("deployment", a.deployment, "Deployment file (*.textproto)")->required();
+  app.add_option("--scene", a.scene, "Show this scene file instead of the deployment's");
+  app.add_option("--display", a.display,
+                 "Use this calibration file instead of the deployment's (modules in equal shares)");
+  app.add_option("--roi", a.roi, "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)")
+      ->delimiter(',')
+      ->expected(6);
+  app.add_option("--plan", a.plan, "\"everything\": leave nothing out; \"needed\": what the deployment says")
+      ->check(CLI::IsMember({"everything", "needed"}));
+  app.add_option("--sink", a.sink, "Where finished images go: display, files or none, instead of the deployment's")
+      ->check(CLI::IsMember({"display", "files", "none"}));
+  app.add_flag("--no-ao", a.no_ao, "Without ambient occlusion");
+  app.add_option("--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)")
+      ->delimiter(',');
+  app.add_flag("--idle", a.options.idle, "Draw no frame until a client asks for frames");
+  app.add_flag("--print-endpoint", a.print_endpoint, "Print the control endpoint on standard output, once it is bound");
+  app.add_option("--log-level", a.log_level, "trace, debug, info, warn, error or off")->capture_default_str();
+}
+
+void set_vector(proto::Vector& to, double x, double y, double z) {
+  to.set_x(x);
+  to.set_y(y);
+  to.set_z(z);
+}
+
+Result<Deployment> read_deployment(const Arguments& a) {
+  DeploymentOverrides overrides;
+  if (!a.display.empty()) overrides.display = a.display;
+  if (!a.scene.empty()) overrides.scene = a.scene;
+  LFD_TRY(Deployment deployment, load_deployment(a.deployment, overrides));
+  if (!a.roi.empty()) {
+    proto::RegionOfInterest& roi = *deployment.message.mutable_roi();
+    roi.Clear();
+    set_vector(*roi.mutable_world_centre(), a.roi[0], a.roi[1], a.roi[2]);
+    set_vector(*roi.mutable_world_size(), a.roi[3], a.roi[4], a.roi[5]);
+  }
+  if (a.plan == "everything") deployment.message.mutable_render()->set_planner(proto::RenderSettings::EVERYTHING);
+  if (a.sink == "display") deployment.message.set_sink(proto::Deployment::DISPLAY);
+  if (a.sink == "files") deployment.message.set_sink(proto::Deployment::FILES);
+  if (a.sink == "none") deployment.message.set_sink(proto::Deployment::NONE);
+  if (a.no_ao) deployment.message.mutable_render()->mutable_ao()->set_enabled(false);
+  return deployment;
+}
+
+int run(Arguments arguments) {
+  StopSignals signals;
+  start_log("controller", arguments.log_level);
+  auto deployment = read_deployment(arguments);
+  if (!deployment) return fail(deployment.error());
+  arguments.options.deployment = *std::move(deployment);
+  auto daemon = Daemon::open(std::move(arguments.options));
+  if (!daemon) return fail(daemon.error());
+  log::info("control {}", (*daemon)->control_endpoint());
+  if (arguments.print_endpoint) {
+    std::printf("lfd-controller: control %s\n", (*daemon)->control_endpoint().c_str());
+    std::fflush(stdout);
+  }
+  const Status ended = (*daemon)->run(signals);
+  const int code = ended ? kExitDone : fail(ended.error());
+  const bool loading = (*daemon)->loading();
+  daemon->reset();
+  if (loading) std::_Exit(code);  // nothing of the loading thread may run into what main's return destroys
+  return code;
+}
+
+}  // namespace
+}  // namespace lfd::controller
+
+int main(int argc, char** argv) {
+  CLI::App app("Loads the scene, distributes it, opens and closes frames, answers `lfd ctl`.", "lfd-controller");
+  app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it and tell all nodes.");
+  lfd::controller::Arguments arguments;
+  lfd::controller::add_options(app, arguments);
+  if (const auto code = lfd::parse_command_line(app, argc, argv)) return *code;
+  return lfd::controller::run(std::move(arguments));
+}

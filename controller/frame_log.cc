@@ -1,0 +1,94 @@
+// The ring of frame reports.
+#include "controller/frame_log.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+
+namespace lfd::controller {
+namespace {
+
+constexpr Clock::duration kRateWindow = std::chrono::seconds(3);
+
+}  // namespace
+
+std::vector<double> matrix_rows(const Affine<Physical, World>& physical_from_world) {
+  std::vector<double> rows;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rows.push_back(physical_from_world.linear[column][row]);
+    rows.push_back(physical_from_world.offset[row]);
+  }
+  rows.insert(rows.end(), {0, 0, 0, 1});
+  return rows;
+}
+
+void FrameLog::begun(std::uint64_t frame, const RegionOfInterest& roi, const std::string& state_hash,
+                     Clock::time_point now) {
+  LFD_CHECK(entries_.empty() || entries_.back().report.frame() + 1 == frame, "frames begin in order");
+  proto::FrameReport report;
+  report.set_frame(frame);
+  for (const double number : matrix_rows(physical_from_world(roi))) report.add_physical_from_world(number);
+  const Point3<World> origin = position_origin(roi);
+  report.mutable_position_origin()->set_x(origin.x);
+  report.mutable_position_origin()->set_y(origin.y);
+  report.mutable_position_origin()->set_z(origin.z);
+  report.set_roi_diagonal(roi.diagonal_m());
+  report.set_state_hash(state_hash);
+  entries_.push_back({std::move(report), now, false});
+  if (entries_.size() > kRemembered) entries_.pop_front();
+}
+
+FrameLog::Entry* FrameLog::find(std::uint64_t frame) {
+  if (entries_.empty() || frame < entries_.front().report.frame()) return nullptr;
+  const std::uint64_t index = frame - entries_.front().report.frame();
+  return index < entries_.size() ? &entries_[index] : nullptr;
+}
+
+void FrameLog::reported(std::uint64_t frame, const proto::NodeReport& report) {
+  if (Entry* entry = find(frame)) *entry->report.add_node() = report;
+}
+
+void FrameLog::swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules,
+                       Clock::time_point now) {
+  last_swapped_ = swap.frame;
+  stale_modules_ = stale_modules;
+  if (swap.late) ++late_frames_;
+  swaps_.push_back(now);
+  while (now - swaps_.front() > kRateWindow) swaps_.pop_front();
+  Entry* entry = find(swap.frame);
+  if (entry == nullptr) return;
+  entry->report.set_begin_to_swap_ms(milliseconds(now - entry->begun));
+  for (const std::uint32_t module : stale_modules) entry->report.add_stale_module(module);
+}
+
+void FrameLog::shown(std::uint64_t frame, Clock::time_point now) {
+  Entry* entry = find(frame);
+  if (entry == nullptr) return;
+  entry->shown = true;
+  entry->report.set_begin_to_shown_ms(milliseconds(now - entry->begun));
+}
+
+bool FrameLog::all_shown(std::uint64_t first, std::uint64_t count) const {
+  const auto shown = std::ranges::count_if(entries_, [&](const Entry& entry) {
+    return entry.shown && entry.report.frame() >= first && entry.report.frame() - first < count;
+  });
+  return static_cast<std::uint64_t>(shown) == count;
+}
+
+double FrameLog::frames_per_second(Clock::time_point now) const {
+  const auto first = std::ranges::find_if(swaps_, [&](Clock::time_point swap) { return now - swap <= kRateWindow; });
+  const auto count = std::distance(first, swaps_.end());
+  if (count < 2) return 0;
+  return static_cast<double>(count - 1) / std::chrono::duration<double>(swaps_.back() - *first).count();
+}
+
+std::vector<proto::FrameReport> FrameLog::reports(std::uint64_t first, std::uint64_t count) const {
+  std::vector<proto::FrameReport> reports;
+  for (const Entry& entry : entries_) {
+    const std::uint64_t frame = entry.report.frame();
+    if (frame >= first && frame - first < count) reports.push_back(entry.report);
+  }
+  return reports;
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,61 @@
+// What is remembered of the last frames: their geometry, what each node reported, when they were swapped and shown.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "base/clock.h"
+#include "calibration/spaces/roi.h"
+#include "controller/frame_barrier.h"
+#include "proto/wire.pb.h"
+
+namespace lfd::controller {
+
+class FrameLog {
+ public:
+  // The frame begins with this region of interest and state.
+  void begun(std::uint64_t frame, const RegionOfInterest& roi, const std::string& state_hash, Clock::time_point now);
+
+  // A node's report of a frame. Reports of frames that are forgotten have no effect.
+  void reported(std::uint64_t frame, const proto::NodeReport& report);
+
+  void swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules, Clock::time_point now);
+
+  // The display or output has the complete frame.
+  void shown(std::uint64_t frame, Clock::time_point now);
+
+  std::optional<std::uint64_t> last_swapped() const { return last_swapped_; }
+  // Whether each of the frames first .. first + count - 1 has been shown.
+  bool all_shown(std::uint64_t first, std::uint64_t count) const;
+  std::uint64_t late_frames() const { return late_frames_; }
+  const std::vector<std::uint32_t>& stale_modules() const { return stale_modules_; }
+
+  // Of the frames swapped in the last seconds; 0 where nothing is.
+  double frames_per_second(Clock::time_point now) const;
+
+  // Reports of frames first .. first + count - 1, as far as they are remembered.
+  std::vector<proto::FrameReport> reports(std::uint64_t first, std::uint64_t count) const;
+
+  static constexpr std::size_t kRemembered = 10000;
+
+ private:
+  struct Entry {
+    proto::FrameReport report;
+    Clock::time_point begun;
+    bool shown = false;
+  };
+  Entry* find(std::uint64_t frame);
+
+  std::deque<Entry> entries_;  // by frame number, without gaps
+  std::deque<Clock::time_point> swaps_;
+  std::vector<std::uint32_t> stale_modules_;
+  std::optional<std::uint64_t> last_swapped_;
+  std::uint64_t late_frames_ = 0;
+};
+
+// The 16 numbers of the 4x4 matrix of physical_from_world, row-major.
+std::vector<double> matrix_rows(const Affine<Physical, World>& physical_from_world);
+
+}  // namespace lfd::controller

@@ -1,0 +1,145 @@
+// Joining, being heard and going.
+#include "controller/membership.h"
+
+#include <algorithm>
+
+#include "base/log.h"
+
+namespace lfd::controller {
+
+const char* name_of(Phase phase) {
+  switch (phase) {
+    case Phase::kAbsent:
+      return "absent";
+    case Phase::kJoining:
+      return "joining";
+    case Phase::kReady:
+      return "ready";
+    case Phase::kOut:
+      return "out";
+  }
+  return "unknown";
+}
+
+Membership::Membership(Rules rules) : rules_(std::move(rules)) {
+  for (const std::string& name : rules_.nodes) peers_[name].name = name;
+}
+
+Result<std::string> Membership::join(const proto::Join& join, const std::string& address) {
+  LFD_TRY_STATUS(check(join, address));
+  Peer& peer = peers_[join.name()];
+  peer = Peer{.role = join.role(),
+              .name = join.name(),
+              .phase = Phase::kJoining,
+              .address = address,
+              .state_hash = {},
+              .images_endpoint = join.images_endpoint(),
+              .process = join.process(),
+              .last_heard = std::nullopt};
+  return peer.name;
+}
+
+Status Membership::check(const proto::Join& join, const std::string& address) const {
+  if (join.version() != rules_.version) {
+    return Error(fmt::format("version {} does not fit the controller's {}", join.version(), rules_.version));
+  }
+  if (!join.calibration_hash().empty() && join.calibration_hash() != rules_.calibration_hash) {
+    return Error(fmt::format("display calibration {} is not the controller's {}", join.calibration_hash(),
+                             rules_.calibration_hash));
+  }
+  const bool is_node = std::ranges::find(rules_.nodes, join.name()) != rules_.nodes.end();
+  if (join.role() == proto::NODE && !is_node) {
+    return Error(
+        fmt::format("the deployment has no node \"{}\"; it has {}", join.name(), fmt::join(rules_.nodes, ", ")));
+  }
+  if (join.role() == proto::DISPLAY && is_node) return Error(fmt::format("\"{}\" is the name of a node", join.name()));
+  if (join.role() != proto::NODE && join.role() != proto::DISPLAY) return Error("only nodes and displays join");
+  if (join.name().empty()) return Error("a peer without a name");
+
+  const Peer* living = join.role() == proto::DISPLAY ? display() : find(join.name());
+  if (living == nullptr || !living->lives()) return {};
+  const bool same = living->address == address || (join.process() != 0 && living->process == join.process());
+  if (same && living->name == join.name()) return {};
+  return Error(fmt::format("\"{}\" has joined already, as process {}", living->name, living->process));
+}
+
+void Membership::welcomed(const std::string& name, Clock::time_point now) { peers_.at(name).last_heard = now; }
+
+Membership::Heard Membership::heard(const std::string& address, Clock::time_point now) {
+  for (auto& [name, peer] : peers_) {
+    if (address.empty() || peer.address != address) continue;
+    if (peer.lives()) {
+      if (peer.last_heard) peer.last_heard = now;
+      return Heard::kMember;
+    }
+    if (peer.role == proto::DISPLAY && display() != nullptr) return Heard::kStranger;
+    peer.phase = Phase::kJoining;
+    peer.state_hash.clear();
+    peer.last_heard = now;
+    return Heard::kBack;
+  }
+  return Heard::kStranger;
+}
+
+void Membership::holds(const std::string& address, const std::string& state_hash, bool known) {
+  for (auto& [name, peer] : peers_) {
+    if (peer.address != address || !peer.lives()) continue;
+    peer.state_hash = state_hash;
+    if (known) peer.phase = Phase::kReady;
+  }
+}
+
+std::optional<std::string> Membership::leave(const std::string& address) {
+  for (auto& [name, peer] : peers_) {
+    if (peer.address != address || !peer.lives()) continue;
+    peer.phase = Phase::kOut;
+    peer.address.clear();
+    return name;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> Membership::expire(Clock::time_point now) {
+  std::vector<std::string> gone;
+  for (auto& [name, peer] : peers_) {
+    if (!peer.lives() || !peer.last_heard || now - *peer.last_heard <= rules_.patience) continue;
+    peer.phase = Phase::kOut;
+    gone.push_back(name);
+  }
+  return gone;
+}
+
+const Peer* Membership::find(const std::string& name) const {
+  const auto found = peers_.find(name);
+  return found == peers_.end() ? nullptr : &found->second;
+}
+
+const Peer* Membership::at(const std::string& address) const {
+  for (const auto& [name, peer] : peers_) {
+    if (peer.lives() && peer.address == address) return &peer;
+  }
+  return nullptr;
+}
+
+const Peer* Membership::display() const {
+  for (const auto& [name, peer] : peers_) {
+    if (peer.role == proto::DISPLAY && peer.lives()) return &peer;
+  }
+  return nullptr;
+}
+
+std::vector<const Peer*> Membership::peers() const {
+  std::vector<const Peer*> all;
+  for (const auto& [name, peer] : peers_) all.push_back(&peer);
+  return all;
+}
+
+std::vector<std::string> Membership::ready_nodes() const {
+  std::vector<std::string> names;
+  for (const auto& [name, peer] : peers_) {
+    if (peer.role == proto::NODE && peer.phase == Phase::kReady) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,93 @@
+// Wishes to updates.
+#include "controller/stage.h"
+
+#include <cmath>
+
+#include "base/check.h"
+#include "proto/settings.h"
+
+namespace lfd::controller {
+namespace {
+
+Point3<World> point_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+Stage::Stage(const Deployment& deployment)
+    : screen_(deployment.display.screen),
+      animation_frames_per_second_(deployment.animation_frames_per_second),
+      wished_roi_(deployment.message.roi()),
+      render_(deployment.message.render()) {}
+
+Result<Stage> Stage::of(const Deployment& deployment) {
+  Stage stage(deployment);
+  LFD_CHECK(stage.animation_frames_per_second_ > 0, "a deployment that was read has a rate of animation");
+  if (auto settings = read_settings(stage.render_); !settings) return settings.error().within("render");
+  return stage;
+}
+
+Result<RegionOfInterest> Stage::complete(const proto::RegionOfInterest& wish, const proto::Scene& scene) const {
+  return complete_roi(wish, point_from(scene.bounds_low()), point_from(scene.bounds_high()), screen_.width_m,
+                      screen_.height_m);
+}
+
+Result<proto::Update> Stage::show(LoadedScene scene) {
+  LFD_TRY(roi_, complete(wished_roi_, scene.data.scene));
+  proto::Update update;
+  *update.mutable_scene() = scene.data.scene;
+  *update.mutable_roi() = write_roi(roi_);
+  *update.mutable_render() = render_;
+  scene_ = std::move(scene);
+  return store_.change(std::move(update));
+}
+
+Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
+  if (!has_scene()) return Error("no scene is there yet");
+  LFD_TRY(roi_, complete(wish, scene_->data.scene));
+  wished_roi_ = wish;
+  proto::Update update;
+  *update.mutable_roi() = write_roi(roi_);
+  return store_.change(std::move(update));
+}
+
+Result<proto::Update> Stage::set_render(const proto::RenderSettings& render) {
+  if (!has_scene()) return Error("no scene is there yet");
+  if (auto settings = read_settings(render); !settings) return settings.error();
+  render_ = render;
+  proto::Update update;
+  *update.mutable_render() = render_;
+  return store_.change(std::move(update));
+}
+
+Result<proto::Update> Stage::set_ao(const proto::AmbientOcclusion& ao) {
+  proto::RenderSettings render = render_;
+  *render.mutable_ao() = ao;
+  return set_render(render);
+}
+
+std::optional<proto::Update> Stage::set_buffers(std::uint32_t buffers) {
+  if (store_.state().buffers() == buffers) return std::nullopt;
+  proto::Update update;
+  update.set_buffers(buffers);
+  return store_.change(std::move(update));
+}
+
+std::optional<proto::Update> Stage::animate(std::uint64_t frame) {
+  if (!has_scene() || scene_->animations.empty()) return std::nullopt;
+  const double duration_s = scene_->animations.duration_s();
+  const double played_s = static_cast<double>(frame) / animation_frames_per_second_;
+  const double time_s = duration_s > 0 ? std::fmod(played_s, duration_s) : 0;
+  proto::Update update;
+  const std::vector<proto::Light> lights = scene_->animations.lights_at(time_s);
+  const std::vector<proto::Instance> instances = scene_->animations.at(time_s);
+  if (lights.empty()) {
+    update.mutable_instance()->Add(instances.begin(), instances.end());
+  } else {
+    proto::Scene& scene = *update.mutable_scene() = store_.state().scene();
+    scene.mutable_instance()->Assign(instances.begin(), instances.end());
+    scene.mutable_light()->Assign(lights.begin(), lights.end());
+  }
+  return store_.change(std::move(update));
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,25 @@
+// Numbered changes of the state.
+#include "controller/state_store.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "proto/state.h"
+
+namespace lfd::controller {
+
+StateStore::StateStore() : hashes_{state_hash(state_)} {}
+
+proto::Update StateStore::change(proto::Update update) {
+  update.set_sequence(state_.sequence() + 1);
+  const Status applied = apply_update(state_, update);
+  LFD_CHECK(applied, applied.error().message());
+  std::string hash = state_hash(state_);
+  if (hash != hashes_.back()) hashes_.push_back(std::move(hash));
+  if (hashes_.size() > kRemembered + 1) hashes_.pop_front();
+  return update;
+}
+
+bool StateStore::remembers(std::string_view hash) const { return std::ranges::find(hashes_, hash) != hashes_.end(); }
+
+}  // namespace lfd::controller

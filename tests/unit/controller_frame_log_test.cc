@@ -1,0 +1,80 @@
+// The frame log: what a report says, and what is forgotten.
+#include "controller/frame_log.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lfd::controller {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+
+const Clock::time_point kStart{};
+
+RegionOfInterest doubled() {
+  RegionOfInterest roi;
+  roi.world_centre = {1, 2, 3};
+  roi.world_size = {1, 2, 2};
+  roi.physical_size = {2, 4, 4};
+  return roi;
+}
+
+TEST(FrameLog, ReportsTheMatrixRowByRow) {
+  EXPECT_THAT(matrix_rows(physical_from_world(doubled())),
+              ElementsAre(2, 0, 0, -2, 0, 2, 0, -4, 0, 0, 2, -6, 0, 0, 0, 1));
+}
+
+TEST(FrameLog, ReportsOneFrame) {
+  FrameLog log;
+  log.begun(0, doubled(), "h", kStart);
+  proto::NodeReport node;
+  node.set_node("left");
+  log.reported(0, node);
+  log.swapped({.frame = 0, .ready = {"left"}, .missing = {"right"}, .late = true, .begun = kStart}, {4, 5},
+              kStart + 20ms);
+  EXPECT_FALSE(log.all_shown(0, 1));
+  log.shown(0, kStart + 30ms);
+  EXPECT_TRUE(log.all_shown(0, 1));
+  EXPECT_FALSE(log.all_shown(0, 2));
+  const auto reports = log.reports(0, 5);
+  ASSERT_EQ(reports.size(), 1u);
+  EXPECT_EQ(reports[0].state_hash(), "h");
+  EXPECT_EQ(reports[0].roi_diagonal(), 3);
+  EXPECT_EQ(reports[0].position_origin().x(), 0);
+  EXPECT_THAT(reports[0].stale_module(), ElementsAre(4, 5));
+  EXPECT_EQ(reports[0].begin_to_swap_ms(), 20);
+  EXPECT_EQ(reports[0].begin_to_shown_ms(), 30);
+  EXPECT_EQ(reports[0].node(0).node(), "left");
+  EXPECT_EQ(log.late_frames(), 1u);
+}
+
+TEST(FrameLog, MeasuresPositionsFromAFarRegionsCentre) {
+  RegionOfInterest far = doubled();
+  far.world_centre = {301, 0, 0};
+  FrameLog log;
+  log.begun(0, far, "h", kStart);
+  EXPECT_EQ(log.reports(0, 1)[0].position_origin().x(), 301);
+}
+
+TEST(FrameLog, ForgetsTheOldest) {
+  FrameLog log;
+  for (std::uint64_t frame = 0; frame < FrameLog::kRemembered + 10; ++frame) log.begun(frame, doubled(), "h", kStart);
+  ASSERT_EQ(log.reports(0, 11).size(), 1u);
+  EXPECT_EQ(log.reports(0, 11)[0].frame(), 10u);
+  log.reported(3, {});
+}
+
+TEST(FrameLog, TellsTheRateOfTheLastSeconds) {
+  FrameLog log;
+  EXPECT_EQ(log.frames_per_second(kStart), 0);
+  for (std::uint64_t frame = 0; frame < 500; ++frame) {
+    log.begun(frame, doubled(), "h", kStart + frame * 10ms);
+    log.swapped({.frame = frame, .ready = {}, .missing = {}, .late = false, .begun = {}}, {}, kStart + frame * 10ms);
+  }
+  EXPECT_NEAR(log.frames_per_second(kStart + 5s), 100, 1e-6);
+  EXPECT_EQ(log.frames_per_second(kStart + 1h), 0);
+}
+
+}  // namespace
+}  // namespace lfd::controller

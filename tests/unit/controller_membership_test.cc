@@ -1,0 +1,132 @@
+// Membership: who is let in, who is refused and why, who is put out and comes back.
+#include "controller/membership.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lfd::controller {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Clock::time_point kStart{};
+
+Membership two_nodes() {
+  return Membership({.version = "1.2", .calibration_hash = "c0", .nodes = {"left", "right"}, .patience = 3s});
+}
+
+proto::Join join_of(const std::string& name, std::uint64_t process = 1, proto::Role role = proto::NODE) {
+  proto::Join join;
+  join.set_role(role);
+  join.set_name(name);
+  join.set_version("1.2");
+  join.set_process(process);
+  return join;
+}
+
+TEST(Membership, TakesANodeOfTheDeployment) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left"), "A"));
+  EXPECT_EQ(members.find("left")->phase, Phase::kJoining);
+  EXPECT_THAT(members.ready_nodes(), IsEmpty());
+  members.holds("A", "h", true);
+  EXPECT_THAT(members.ready_nodes(), ElementsAre("left"));
+}
+
+TEST(Membership, IsNotReadyWithAStateThatWasNeverPublished) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left"), "A"));
+  members.holds("A", "foreign", false);
+  EXPECT_THAT(members.ready_nodes(), IsEmpty());
+}
+
+TEST(Membership, RefusesWithTheReason) {
+  Membership members = two_nodes();
+  EXPECT_THAT(members.join(join_of("middle"), "A").error().message(),
+              HasSubstr("no node \"middle\"; it has left, right"));
+  proto::Join old = join_of("left");
+  old.set_version("1.1");
+  EXPECT_THAT(members.join(old, "A").error().message(), HasSubstr("version 1.1"));
+  proto::Join other = join_of("left");
+  other.set_calibration_hash("c1");
+  EXPECT_THAT(members.join(other, "A").error().message(), HasSubstr("calibration c1"));
+  EXPECT_FALSE(members.join(join_of("client", 1, proto::CLIENT), "A"));
+  EXPECT_FALSE(members.join(join_of("left", 1, proto::DISPLAY), "A"));
+  EXPECT_FALSE(members.join(join_of("", 1, proto::DISPLAY), "A"));
+}
+
+TEST(Membership, RefusesANameThatLives) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left", 11), "A"));
+  EXPECT_THAT(members.join(join_of("left", 12), "B").error().message(), HasSubstr("joined already, as process 11"));
+  EXPECT_EQ(members.find("left")->address, "A");
+}
+
+TEST(Membership, TakesOneDisplayAtATime) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("screen", 1, proto::DISPLAY), "A"));
+  EXPECT_FALSE(members.join(join_of("other screen", 2, proto::DISPLAY), "B"));
+  ASSERT_EQ(members.leave("A"), "screen");
+  EXPECT_EQ(members.display(), nullptr);
+  EXPECT_TRUE(members.join(join_of("other screen", 2, proto::DISPLAY), "B"));
+}
+
+TEST(Membership, TakesTheSameProcessFromANewAddress) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left", 11), "A"));
+  ASSERT_TRUE(members.join(join_of("left", 11), "B"));
+  EXPECT_EQ(members.find("left")->address, "B");
+  EXPECT_EQ(members.heard("A", kStart), Membership::Heard::kStranger);
+}
+
+TEST(Membership, PutsOutTheSilentAndTakesThemBack) {
+  Membership members = two_nodes();
+  for (const auto& [name, address] : {std::pair("left", "A"), std::pair("right", "B")}) {
+    ASSERT_TRUE(members.join(join_of(name), address));
+    members.welcomed(name, kStart);
+    members.holds(address, "h", true);
+  }
+  EXPECT_EQ(members.heard("A", kStart + 2s), Membership::Heard::kMember);
+  EXPECT_THAT(members.expire(kStart + 3s), IsEmpty());
+  EXPECT_THAT(members.expire(kStart + 4s), ElementsAre("right"));
+  EXPECT_THAT(members.expire(kStart + 4s), IsEmpty());
+  EXPECT_EQ(members.find("right")->phase, Phase::kOut);
+  ASSERT_TRUE(members.join(join_of("right", 12), "C"));
+  EXPECT_EQ(members.find("right")->phase, Phase::kJoining);
+}
+
+TEST(Membership, TakesBackWhoWasSilentAndSpeaksAgain) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left"), "A"));
+  members.welcomed("left", kStart);
+  members.holds("A", "h", true);
+  ASSERT_THAT(members.expire(kStart + 4s), ElementsAre("left"));
+  EXPECT_EQ(members.heard("A", kStart + 5s), Membership::Heard::kBack);
+  EXPECT_EQ(members.find("left")->phase, Phase::kJoining);
+  EXPECT_EQ(members.heard("A", kStart + 5s), Membership::Heard::kMember);
+  EXPECT_THAT(members.expire(kStart + 6s), IsEmpty());
+}
+
+TEST(Membership, DoesNotTakeBackWhoLeftOrWasReplaced) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left", 11), "A"));
+  ASSERT_TRUE(members.leave("A"));
+  EXPECT_EQ(members.heard("A", kStart), Membership::Heard::kStranger);
+  ASSERT_TRUE(members.join(join_of("left", 12), "B"));
+  members.welcomed("left", kStart);
+  ASSERT_THAT(members.expire(kStart + 4s), ElementsAre("left"));
+  ASSERT_TRUE(members.join(join_of("left", 13), "C"));
+  EXPECT_EQ(members.heard("B", kStart + 4s), Membership::Heard::kStranger);
+}
+
+TEST(Membership, DoesNotExpectToHearWhoWaitsForItsWelcome) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left"), "A"));
+  EXPECT_THAT(members.expire(kStart + 1h), IsEmpty());
+}
+
+}  // namespace
+}  // namespace lfd::controller
