@@ -69,13 +69,14 @@ bool grows_up_to(const PinholeMap& m, double q) {
 // inverted.
 std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
   if (m.k1 == 0 && m.k2 == 0 && m.k3 == 0 && m.p1 == 0 && m.p2 == 0) return wanted;
+  if (!std::isfinite(wanted.x) || !std::isfinite(wanted.y)) return std::nullopt;
   glm::dvec2 a = wanted;
   while (!grows_up_to(m, glm::dot(a, a))) {
     a *= 0.5;
     if (!(glm::length(a) > 0)) return std::nullopt;
   }
   double residual = glm::length(distort(m, a) - wanted);
-  const double enough = 1e-13 * (1 + glm::length(wanted));
+  const double enough = 1e-15 * (1 + glm::length(wanted));
   for (int iteration = 0; iteration < 60 && residual > enough; ++iteration) {
     const glm::dmat2 jacobian = distort_jacobian(m, a);
     const glm::dvec2 step = glm::inverse(jacobian) * (wanted - distort(m, a));
@@ -90,7 +91,7 @@ std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
     }
     if (!(fraction > 1e-6)) break;
   }
-  if (!(residual <= 100 * enough) || !(glm::determinant(distort_jacobian(m, a)) > 0)) return std::nullopt;
+  if (!(residual <= 1000 * enough) || !(glm::determinant(distort_jacobian(m, a)) > 0)) return std::nullopt;
   return a;
 }
 
