@@ -24,14 +24,24 @@ void FrameAssembly::configure(int modules, ImageSize image, std::span<const std:
   owner_.assign(modules, "");
   shown_.assign(modules, {});
   last_shown_.reset();
+  latest_swap_.reset();
   pending_.clear();
   for (auto& [name, node] : nodes_) {
     node.waiting = 0;
+    node.allowed = first_allowance();
     node.latest_frame = 0;
   }
 }
 
-void FrameAssembly::node_came(const std::string& node) { nodes_.try_emplace(node); }
+std::uint32_t FrameAssembly::first_allowance() const {
+  const std::size_t largest = std::size_t{16} * image_.width * image_.height;
+  const std::size_t fit = kWaitingPerNode_bytes / std::max<std::size_t>(largest, 1);
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(fit, 1, std::max<std::size_t>(shown_.size(), 1)));
+}
+
+void FrameAssembly::node_came(const std::string& node) {
+  nodes_.try_emplace(node).first->second.allowed = first_allowance();
+}
 
 void FrameAssembly::node_left(const std::string& node) { nodes_.erase(node); }
 
@@ -47,6 +57,9 @@ Status FrameAssembly::check(const Node& node, const proto::Image& what, std::siz
   if (what.of_images() < 1 || what.of_images() > kMaxImagesPerFrame)
     return Error(fmt::format("it is one of {}", what.of_images()));
   if (last_shown_ && what.frame() <= *last_shown_) return Error(fmt::format("frame {} is past", *last_shown_));
+  // A swap makes a place for its frame; where there is none any more, the frame has been given up.
+  if (latest_swap_ && what.frame() <= *latest_swap_ && !pending_.contains(what.frame()))
+    return Error("its frame was dropped");
   if (what.empty()) return payload_bytes == 0 ? Status() : Status(Error("it is empty, yet has pixels"));
   const ImageSize size{static_cast<int>(what.width_px()), static_cast<int>(what.height_px())};
   if (size != image_) {
@@ -98,6 +111,7 @@ Status FrameAssembly::image_came(const std::string& name, const proto::Image& wh
 
 void FrameAssembly::swapped(std::uint64_t frame, std::span<const std::uint32_t> stale_modules) {
   if (shown_.empty() || (last_shown_ && frame <= *last_shown_)) return;
+  latest_swap_ = std::max(latest_swap_.value_or(frame), frame);
   // Swaps come in order: those of earlier frames that did not come are lost, and nothing says that they named stale
   // modules.
   for (auto& [number, pending] : pending_) {

@@ -23,8 +23,8 @@ struct Written {
   int fresh_modules = 0;
 };
 
-// Frames are written whole, begun in the order given; at most kFrames are in hand. What cannot be written (disk full, folder
-// gone) is counted and logged, once per cause; the frame counts as written all the same. One thread uses it.
+// Frames are written whole, begun in the order given; at most kFrames are in hand. What cannot be written (disk full,
+// folder gone) is counted and logged, once per cause; the frame counts as written all the same. One thread uses it.
 class PictureWriter {
  public:
   static constexpr std::size_t kFrames = 2;

@@ -4,7 +4,7 @@
 
 #include "base/log.h"
 #include "base/signals.h"
-#include "cli/command_line.h"
+#include "base/command_line.h"
 #include "proto/calibration_file.h"
 #include "proto/deployment_file.h"
 #include "rendernode/gl/context.h"

@@ -22,7 +22,7 @@ reference::Truth truth_of(const SceneData& data, const RegionOfInterest& roi, co
   const auto result = draw_once(renderer, state_of(data, roi), data.assets, {buffers({proto::POSITION})});
   const ModuleImage* image = find_image(result, module, proto::POSITION);
   EXPECT_NE(image, nullptr);
-  const auto rgba = testing_support::floats_of(*image);
+  const PictureF rendered{display.image.width, display.image.height, testing_support::floats_of(*image)};
 
   auto scene = reference::world_scene(data, roi);
   EXPECT_TRUE(scene);
@@ -30,7 +30,7 @@ reference::Truth truth_of(const SceneData& data, const RegionOfInterest& roi, co
   const reference::Intersector intersector(*scene);
   const reference::ModuleView view{display, display.modules[module], {limits.front, limits.back}};
   const auto hits = reference::cast_module(intersector, view);
-  return reference::compare(hits, reference::near_silhouette(intersector, view, hits), {display.image, rgba, result.position_origin},
+  return reference::compare(hits, reference::near_silhouette(intersector, view, hits), rendered, result.position_origin,
                             roi.diagonal_m());
 }
 

@@ -1,0 +1,333 @@
+// Which frame is shown: over random orders of arrival no frame is ever mixed, lost without need, or paid for with
+// unbounded memory.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <deque>
+#include <numeric>
+#include <random>
+
+#include "display/frame_assembly.h"
+
+namespace lfd::display {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+constexpr ImageSize kOnePixel{1, 1};
+const Clock::time_point kStart{};
+
+proto::Image image_of(std::uint64_t frame, std::uint32_t module, std::uint32_t of_images) {
+  proto::Image image;
+  image.set_frame(frame);
+  image.set_module(module);
+  image.set_width_px(1);
+  image.set_height_px(1);
+  image.set_of_images(of_images);
+  return image;
+}
+
+// Four bytes that name frame and module.
+wire::Payload pixel_of(std::uint64_t frame, std::uint32_t module) {
+  return std::make_shared<const std::string>(std::string{char(frame), char(frame >> 8), char(module), 'p'});
+}
+
+// An assembly for one node "a" that draws modules 0 and 1 and has all the credit it can get.
+struct TwoModules {
+  FrameAssembly assembly;
+  TwoModules() {
+    assembly.configure(2, kOnePixel);
+    assembly.node_came("a");
+    assembly.credit_for("a");
+  }
+  Status send(std::uint64_t frame, std::uint32_t module, const std::string& node = "a") {
+    const Status status = assembly.image_came(node, image_of(frame, module, 2), pixel_of(frame, module), kStart);
+    assembly.credit_for(node);
+    return status;
+  }
+};
+
+TEST(DisplayAssembly, ShowsAFrameOnceItIsWholeAndSwapped) {
+  TwoModules display;
+  ASSERT_TRUE(display.send(5, 0));
+  display.assembly.swapped(5, {});
+  EXPECT_FALSE(display.assembly.next_frame(kStart)) << "module 1 is missing";
+  ASSERT_TRUE(display.send(5, 1));
+  const auto frame = display.assembly.next_frame(kStart);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->frame, 5u);
+  EXPECT_EQ(frame->fresh_modules, 2);
+  EXPECT_FALSE(display.assembly.next_frame(kStart)) << "shown once";
+}
+
+TEST(DisplayAssembly, WaitsForTheSwapButNotForEver) {
+  TwoModules display;
+  ASSERT_TRUE(display.send(0, 0));
+  ASSERT_TRUE(display.send(0, 1));
+  EXPECT_FALSE(display.assembly.next_frame(kStart + FrameAssembly::kSwapPatience - 1ms));
+  EXPECT_TRUE(display.assembly.next_frame(kStart + FrameAssembly::kSwapPatience));
+}
+
+TEST(DisplayAssembly, StaleModulesKeepTheirLastImage) {
+  TwoModules display;
+  display.assembly.node_came("b");
+  display.assembly.credit_for("b");
+  const auto one = [&](const std::string& node, std::uint64_t frame, std::uint32_t module) {
+    ASSERT_TRUE(display.assembly.image_came(node, image_of(frame, module, 1), pixel_of(frame, module), kStart));
+    display.assembly.credit_for(node);
+  };
+  one("a", 1, 0);
+  one("b", 1, 1);
+  display.assembly.swapped(1, {});
+  ASSERT_TRUE(display.assembly.next_frame(kStart));
+  one("a", 2, 0);
+  const std::uint32_t stale[] = {1};
+  display.assembly.swapped(2, stale);
+  const auto frame = display.assembly.next_frame(kStart);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->fresh_modules, 1);
+  EXPECT_EQ(frame->modules[0].frame, 2u);
+  EXPECT_FALSE(frame->modules[0].stale);
+  EXPECT_EQ(frame->modules[1].frame, 1u);
+  EXPECT_TRUE(frame->modules[1].stale);
+  EXPECT_EQ(frame->modules[1].image[proto::COLOR]->pixels.text(), pixel_of(1, 1).text());
+}
+
+TEST(DisplayAssembly, UnchangedModulesThatANodeLeavesOutKeepTheirImageAndAreNotStale) {
+  TwoModules display;
+  ASSERT_TRUE(display.send(1, 0));
+  ASSERT_TRUE(display.send(1, 1));
+  display.assembly.swapped(1, {});
+  ASSERT_TRUE(display.assembly.next_frame(kStart));
+  ASSERT_TRUE(display.assembly.image_came("a", image_of(2, 1, 1), pixel_of(2, 1), kStart));
+  display.assembly.swapped(2, {});
+  const auto frame = display.assembly.next_frame(kStart);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->fresh_modules, 2);
+  EXPECT_EQ(frame->modules[0].frame, 1u);
+  EXPECT_EQ(frame->modules[1].frame, 2u);
+}
+
+TEST(DisplayAssembly, ModulesThatNobodyDrawsAreNotWaitedFor) {
+  FrameAssembly assembly;
+  const std::uint32_t owned[] = {1};
+  assembly.configure(3, kOnePixel, owned);
+  assembly.node_came("a");
+  ASSERT_EQ(assembly.credit_for("a"), 3u);
+  ASSERT_TRUE(assembly.image_came("a", image_of(0, 1, 1), pixel_of(0, 1), kStart));
+  assembly.swapped(0, {});
+  const auto frame = assembly.next_frame(kStart);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->fresh_modules, 1);
+}
+
+TEST(DisplayAssembly, RefusesWhatCannotBeShownAndSaysWhy) {
+  TwoModules display;
+  const auto refusal = [&](proto::Image image, std::size_t bytes, const std::string& node = "a") {
+    const wire::Payload payload(std::make_shared<const std::string>(bytes, 'x'));
+    const Status status = display.assembly.image_came(node, image, payload, kStart);
+    display.assembly.credit_for("a");
+    return status ? std::string() : status.error().message();
+  };
+  EXPECT_THAT(refusal(image_of(1, 0, 2), 4, "stranger"), HasSubstr("has not said hello"));
+  EXPECT_THAT(refusal(image_of(1, 2, 2), 4),
+              HasSubstr("image of frame 1, module 2, buffer 0: the display has 2 modules"));
+  EXPECT_THAT(refusal(image_of(1, 0, 2), 5), HasSubstr("5 bytes; 4 make its pixels"));
+  EXPECT_THAT(refusal(image_of(1, 0, 0), 4), HasSubstr("it is one of 0"));
+  proto::Image large = image_of(1, 0, 2);
+  large.set_width_px(4000000000u);
+  EXPECT_THAT(refusal(large, 4), HasSubstr("the display's modules have 1 x 1"));
+  proto::Image odd = image_of(1, 0, 2);
+  odd.set_format(proto::RGBA32F);
+  EXPECT_THAT(refusal(odd, 16), HasSubstr("format is not that of its buffer"));
+  odd.set_buffer(static_cast<proto::BufferKind>(99));
+  EXPECT_THAT(refusal(odd, 16), HasSubstr("unknown"));
+  proto::Image empty = image_of(1, 0, 2);
+  empty.set_empty(true);
+  EXPECT_THAT(refusal(empty, 4), HasSubstr("it is empty, yet has pixels"));
+  EXPECT_EQ(refusal(image_of(1, 0, 2), 4), "");
+  EXPECT_THAT(refusal(image_of(1, 0, 2), 4), HasSubstr("it has come before"));
+  EXPECT_EQ(display.assembly.waiting_images(), 1u);
+}
+
+TEST(DisplayAssembly, ImagesWithoutCreditAreRefusedSoThatMemoryIsBounded) {
+  FrameAssembly assembly;
+  assembly.configure(10, kOnePixel);
+  assembly.node_came("a");
+  assembly.credit_for("a");
+  int taken = 0;
+  for (std::uint64_t frame = 0; frame < 100; ++frame) {
+    for (std::uint32_t module = 0; module < 10; ++module) {
+      if (assembly.image_came("a", image_of(frame, module, 10), pixel_of(frame, module), kStart)) ++taken;
+      assembly.credit_for("a");
+    }
+  }
+  EXPECT_EQ(taken, 20) << "two frames of ten images";
+  EXPECT_EQ(assembly.waiting_images(), 20u);
+}
+
+TEST(DisplayAssembly, LargeFramesGetCreditForOneFrameOnly) {
+  FrameAssembly assembly;
+  const ImageSize size{2048, 2048};  // 64 MiB of RGBA32F: 8 fit into 512 MiB
+  assembly.configure(16, size);
+  assembly.node_came("a");
+  EXPECT_EQ(assembly.credit_for("a"), 8u);
+  proto::Image image = image_of(0, 0, 12);
+  image.set_width_px(2048);
+  image.set_height_px(2048);
+  image.set_buffer(proto::POSITION);
+  image.set_format(proto::RGBA32F);
+  const wire::Payload pixels(std::make_shared<const std::string>(std::size_t{16} * 2048 * 2048, 'x'));
+  ASSERT_TRUE(assembly.image_came("a", image, pixels, kStart));
+  EXPECT_EQ(assembly.credit_for("a"), 4u) << "12 in all: one waits, 7 were given before";
+}
+
+TEST(DisplayAssembly, NodeThatDroppedAnImageCostsThatFrameOnly) {
+  TwoModules display;
+  ASSERT_TRUE(display.send(1, 0));  // module 1 of frame 1 was dropped on its way
+  ASSERT_TRUE(display.send(2, 0));
+  ASSERT_TRUE(display.send(2, 1));
+  display.assembly.swapped(1, {});
+  display.assembly.swapped(2, {});
+  const auto frame = display.assembly.next_frame(kStart);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->frame, 2u);
+  EXPECT_EQ(display.assembly.dropped_frames(), 1u);
+  EXPECT_EQ(display.assembly.waiting_images(), 0u);
+}
+
+TEST(DisplayAssembly, ConfigureStartsAnewEvenWithLowerFrameNumbers) {
+  TwoModules display;
+  ASSERT_TRUE(display.send(100, 0));
+  ASSERT_TRUE(display.send(100, 1));
+  display.assembly.swapped(100, {});
+  ASSERT_TRUE(display.assembly.next_frame(kStart));
+  EXPECT_FALSE(display.send(3, 0)) << "frame 100 is past";
+  display.assembly.configure(2, kOnePixel);
+  EXPECT_TRUE(display.send(3, 0));
+}
+
+// Nodes that send frame after frame as far as their credits go, and a controller whose swaps come in order; who moves
+// next is random.
+class Cluster {
+ public:
+  // `ahead`: so many frames are swapped at most beyond the last one shown.
+  Cluster(unsigned seed, std::uint64_t ahead, double stale_share, double drop_share)
+      : ahead_(ahead), random_(seed), nodes_(1 + random_() % 4), modules_(nodes_ * (1 + random_() % 3)) {
+    assembly_.configure(static_cast<int>(modules_), kOnePixel);
+    queues_.resize(nodes_);
+    credits_.resize(nodes_);
+    for (std::uint32_t node = 0; node < nodes_; ++node) assembly_.node_came(std::to_string(node));
+    for (std::uint64_t frame = 1; frame <= kFrames; ++frame) plan(frame, stale_share, drop_share);
+  }
+
+  void run() {
+    for (int idle = 0; idle < 200;) idle = step() ? 0 : idle + 1;
+    EXPECT_TRUE(swaps_.empty());
+    for (const auto& queue : queues_) EXPECT_TRUE(queue.empty()) << "a node was left without credit";
+  }
+
+  static constexpr std::uint64_t kFrames = 40;
+  std::vector<std::uint64_t> shown_;
+
+ private:
+  std::uint32_t per_node() const { return modules_ / nodes_; }
+  bool chance(double share) { return std::uniform_real_distribution<double>(0, 1)(random_) < share; }
+
+  void plan(std::uint64_t frame, double stale_share, double drop_share) {
+    std::vector<std::uint32_t> stale;
+    for (std::uint32_t node = 0; node < nodes_; ++node) {
+      const bool is_stale = chance(stale_share);
+      for (std::uint32_t i = 0; i < per_node(); ++i) {
+        const std::uint32_t module = node * per_node() + i;
+        if (is_stale) stale.push_back(module);
+        if (!chance(is_stale ? 0.5 : drop_share)) queues_[node].push_back(image_of(frame, module, per_node()));
+      }
+    }
+    swaps_.emplace_back(frame, stale);
+  }
+
+  bool step() {
+    bool moved = false;
+    const std::uint32_t who = random_() % (nodes_ + 1);
+    if (who == nodes_) {
+      const std::uint64_t last = shown_.empty() ? 0 : shown_.back();
+      moved = !swaps_.empty() && swaps_.front().first <= last + ahead_;
+      if (moved) {
+        stale_of_[swaps_.front().first] = swaps_.front().second;
+        assembly_.swapped(swaps_.front().first, swaps_.front().second);
+        swaps_.pop_front();
+      }
+    } else {
+      moved = !queues_[who].empty() && credits_[who] > 0;
+      if (moved) {
+        const proto::Image image = queues_[who].front();
+        queues_[who].pop_front();
+        --credits_[who];
+        (void)static_cast<bool>(
+            assembly_.image_came(std::to_string(who), image, pixel_of(image.frame(), image.module()), kStart));
+      }
+      credits_[who] += assembly_.credit_for(std::to_string(who));
+    }
+    // The first credit is for as many images as the display has modules; after that it is two frames.
+    EXPECT_LE(assembly_.waiting_images(), nodes_ * std::max(FrameAssembly::kFramesPerNode * per_node(), modules_));
+    while (const auto frame = assembly_.next_frame(kStart)) check(*frame), moved = true;
+    return moved;
+  }
+
+  void check(const ShownFrame& shown) {
+    if (!shown_.empty()) {
+      EXPECT_GT(shown.frame, shown_.back());
+    }
+    shown_.push_back(shown.frame);
+    ASSERT_EQ(shown.modules.size(), modules_);
+    ASSERT_TRUE(stale_of_.contains(shown.frame)) << "never swapped";
+    const auto& stale = stale_of_[shown.frame];
+    for (std::uint32_t m = 0; m < modules_; ++m) {
+      const ShownModule& module = shown.modules[m];
+      const bool is_stale = std::find(stale.begin(), stale.end(), m) != stale.end();
+      EXPECT_EQ(module.stale, is_stale);
+      if (module.image[proto::COLOR] == nullptr) {
+        EXPECT_TRUE(is_stale);
+        continue;
+      }
+      EXPECT_EQ(module.frame < shown.frame, is_stale);
+      EXPECT_LE(module.frame, shown.frame);
+      EXPECT_EQ(module.image[proto::COLOR]->pixels.text(), pixel_of(module.frame, m).text());
+    }
+  }
+
+  const std::uint64_t ahead_;
+  std::mt19937 random_;
+  std::uint32_t nodes_, modules_;
+  FrameAssembly assembly_;
+  std::vector<std::deque<proto::Image>> queues_;
+  std::vector<std::uint32_t> credits_;
+  std::deque<std::pair<std::uint64_t, std::vector<std::uint32_t>>> swaps_;
+  std::map<std::uint64_t, std::vector<std::uint32_t>> stale_of_;
+};
+
+TEST(DisplayAssembly, RandomOrdersShowEveryFrameOnceAndWhole) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Cluster cluster(seed, 4, 0, 0);
+    cluster.run();
+    std::vector<std::uint64_t> all(Cluster::kFrames);
+    std::iota(all.begin(), all.end(), 1u);
+    EXPECT_EQ(cluster.shown_, all);
+  }
+}
+
+TEST(DisplayAssembly, RandomStalenessAndLossesNeverMixFramesAndNeverStopTheDisplay) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Cluster cluster(seed, Cluster::kFrames, 0.2, 0.05);
+    cluster.run();
+    EXPECT_FALSE(cluster.shown_.empty());
+  }
+}
+
+}  // namespace
+}  // namespace lfd::display
