@@ -99,9 +99,11 @@ Result<Cluster> Cluster::start(const ClusterOptions& options) {
     std::ranges::copy_if(node.modules, std::back_inserter(cluster.modules_),
                          [&](int module) { return options.modules.empty() || wanted.contains(module); });
     if (cluster.modules_.size() == before) continue;  // it has nothing to draw
-    LFD_TRY_STATUS(cluster.add(options, "node " + node.name,
-                               {program("lfd-rendernode"), options.deployment, "--name", node.name, "--controller",
-                                cluster.endpoint_, "--gpu", std::to_string(node.gpu)}));
+    std::vector<std::string> command{program("lfd-rendernode"), options.deployment, "--name", node.name, "--controller",
+                                     cluster.endpoint_};
+    add_option(command, "--display", options.display);
+    add_option(command, "--log-level", options.log_level);
+    LFD_TRY_STATUS(cluster.add(options, "node " + node.name, std::move(command)));
   }
   std::ranges::sort(cluster.modules_);
   return cluster;

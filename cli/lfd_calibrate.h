@@ -1,7 +1,7 @@
 // The commands of lfd-calibrate: each adds itself to the command line.
 #pragma once
 
-#include "cli/command_line.h"
+#include "base/command_line.h"
 
 namespace lfd {
 

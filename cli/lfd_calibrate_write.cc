@@ -1,4 +1,5 @@
 // lfd-calibrate make and import: calibrations written to files.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -35,9 +36,11 @@ int write_display(const DisplayCalibration& display, const std::string& out) {
 }
 
 int run_make(const MakeOptions& options) {
-  auto display = make_display(options.name, options.modules);
+  const auto display = make_display(options.name, options.modules);
   if (!display) {
-    const auto near = closest(options.name, display_names());
+    const auto names = display_names();
+    const bool is_known = std::find(names.begin(), names.end(), options.name) != names.end();
+    const auto near = is_known ? std::nullopt : closest(options.name, names);
     return wrong_use(near ? Error(fmt::format("{}; did you mean {}?", display.error().message(), *near))
                           : display.error());
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/cluster.h"
-#include "cli/command_line.h"
+#include "base/command_line.h"
 #include "proto/wire.pb.h"
 
 namespace lfd {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "base/log.h"
 #include "base/version.h"
@@ -91,7 +92,9 @@ int run(int argc, char** argv) {
       "make",
       "Makes a scene and writes it as glTF 2.0 (.glb). The same seed gives the same scene. Ambient and head "
       "lights are not written: glTF has none.");
-  make_command->add_option("name", name, "One of `lfd-scene list`")->required();
+  std::vector<std::string> names;
+  for (const scene::MadeScene& made : scene::made_scenes()) names.push_back(made.name);
+  make_command->add_option("name", name, "One of `lfd-scene list`")->required()->check(CLI::IsMember(names));
   make_command->add_option("--out", out, "File to write")->required();
   make_command->add_option("--seed", seed, "Seed of textures and shapes")->capture_default_str();
   make_command->add_option("--width", extent.width_m, "Metres along x (not of ribbed-shell)")->capture_default_str();

@@ -150,8 +150,14 @@ Status Daemon::hear_control() {
   while (const auto message = control_.receive()) {
     last_heard_ = Clock::now();
     const auto& envelope = message->envelope;
-    if (envelope.has_refused())
+    if (envelope.has_refused() && !welcome_) {
       return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
+    }
+    if (envelope.has_refused()) {
+      log::warn("the controller knows this display no longer ({}); joining again", envelope.refused().reason());
+      welcome_ = false;
+      next_words_ = Clock::now();
+    }
     if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope.welcome()));
     if (envelope.has_quit()) ended_ = true;
   }

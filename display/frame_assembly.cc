@@ -28,11 +28,20 @@ void FrameAssembly::configure(int modules, ImageSize image, std::span<const std:
   pending_.clear();
   for (auto& [name, node] : nodes_) {
     node.waiting = 0;
+    node.allowed = first_allowance();
     node.latest_frame = 0;
   }
 }
 
-void FrameAssembly::node_came(const std::string& node) { nodes_.try_emplace(node); }
+std::uint32_t FrameAssembly::first_allowance() const {
+  const std::size_t largest = std::size_t{16} * image_.width * image_.height;
+  const std::size_t fit = kWaitingPerNode_bytes / std::max<std::size_t>(largest, 1);
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(fit, 1, std::max<std::size_t>(shown_.size(), 1)));
+}
+
+void FrameAssembly::node_came(const std::string& node) {
+  nodes_.try_emplace(node).first->second.allowed = first_allowance();
+}
 
 void FrameAssembly::node_left(const std::string& node) { nodes_.erase(node); }
 

@@ -82,7 +82,7 @@ class FrameAssembly {
   struct Node {
     std::uint32_t credit = 0;   // given and not used
     std::uint32_t waiting = 0;  // images of it in pending_
-    std::uint32_t allowed = 1;  // bound of both together; one image tells how many there are
+    std::uint32_t allowed = 1;  // bound of both together
     std::uint64_t latest_frame = 0;
   };
   struct FromNode {
@@ -100,6 +100,7 @@ class FrameAssembly {
   };
   enum class Fate { kWhole, kWaits, kHopeless };
 
+  std::uint32_t first_allowance() const;
   Status check(const Node& node, const proto::Image& what, std::size_t payload_bytes) const;
   Fate fate(std::uint64_t frame, const Pending& pending, const std::set<std::uint32_t>& stale) const;
   ShownFrame show(std::uint64_t frame, Pending&& pending);

@@ -58,7 +58,7 @@ Status run(DaemonOptions options, const std::string& deployment_file, bool image
     }
   }
   if (options.controller.empty())
-    return Error("where is the controller? Say --controller, or give its port in the deployment");
+    return Error(fmt::format("{}: the control port is not given there; say --controller", deployment_file));
   return run_daemon(options);
 }
 
@@ -107,6 +107,10 @@ int main_of_display(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongUse;
+  }
+  if (app.get_subcommands().empty() && deployment.empty() && daemon.controller.empty()) {
+    std::fprintf(stderr, "lfd-display: where is the controller? Say --controller, or give a deployment file\n");
+    return kWrongUse;
   }
   start_log(daemon.name, level);
   if (!out.empty()) daemon.out = out;

@@ -12,7 +12,6 @@
 #include "base/log.h"
 
 namespace lfd {
-namespace {
 
 glm::dmat3 module_from_physical_rotation(const PinholeMap& map) {
   const glm::dmat3 physical_from_turned = glm::mat3_cast(glm::normalize(map.orientation));
@@ -27,6 +26,8 @@ glm::dvec2 distort(const PinholeMap& m, glm::dvec2 a) {
   return a * radial + glm::dvec2(2 * m.p1 * a.x * a.y + m.p2 * (r2 + 2 * a.x * a.x),
                                  m.p1 * (r2 + 2 * a.y * a.y) + 2 * m.p2 * a.x * a.y);
 }
+
+namespace {
 
 glm::dmat2 distort_jacobian(const PinholeMap& m, glm::dvec2 a) {
   const double r2 = glm::dot(a, a);
@@ -68,13 +69,14 @@ bool grows_up_to(const PinholeMap& m, double q) {
 // inverted.
 std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
   if (m.k1 == 0 && m.k2 == 0 && m.k3 == 0 && m.p1 == 0 && m.p2 == 0) return wanted;
+  if (!std::isfinite(wanted.x) || !std::isfinite(wanted.y)) return std::nullopt;
   glm::dvec2 a = wanted;
   while (!grows_up_to(m, glm::dot(a, a))) {
     a *= 0.5;
     if (!(glm::length(a) > 0)) return std::nullopt;
   }
   double residual = glm::length(distort(m, a) - wanted);
-  const double enough = 1e-13 * (1 + glm::length(wanted));
+  const double enough = 1e-15 * (1 + glm::length(wanted));
   for (int iteration = 0; iteration < 60 && residual > enough; ++iteration) {
     const glm::dmat2 jacobian = distort_jacobian(m, a);
     const glm::dvec2 step = glm::inverse(jacobian) * (wanted - distort(m, a));
@@ -89,7 +91,7 @@ std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
     }
     if (!(fraction > 1e-6)) break;
   }
-  if (!(residual <= 100 * enough) || !(glm::determinant(distort_jacobian(m, a)) > 0)) return std::nullopt;
+  if (!(residual <= 1000 * enough) || !(glm::determinant(distort_jacobian(m, a)) > 0)) return std::nullopt;
   return a;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
 
 #include "base/result.h"
@@ -33,10 +35,16 @@ Status validate(const PinholeMap& map);
 // grows.
 double distortion_limit(const PinholeMap& map);
 
+// Rotation from physical to module axes, the mirroring of the frame included.
+glm::dmat3 module_from_physical_rotation(const PinholeMap& map);
+
+// The distortion alone: a' of a, in normalised coordinates.
+glm::dvec2 distort(const PinholeMap& map, glm::dvec2 a);
+
 // Absent behind the projector and where the distortion has turned back (beyond its limit, or its Jacobian mirrors).
 std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s);
 
-// By safeguarded Newton to 1e-13 relative; absent where no screen point within the distortion's limit lands on `p`.
+// By safeguarded Newton, to rounding where it can, to 1e-12 relative at worst; absent where no screen point within the distortion's limit lands on `p`.
 std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p);
 
 }  // namespace lfd

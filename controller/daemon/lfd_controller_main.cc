@@ -4,7 +4,7 @@
 
 #include "base/log.h"
 #include "base/signals.h"
-#include "cli/command_line.h"
+#include "base/command_line.h"
 #include "controller/daemon/daemon.h"
 
 namespace lfd::controller {

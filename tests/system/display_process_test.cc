@@ -254,6 +254,15 @@ TEST_F(DisplayProcess, JoinsAgainWhereTheControllerFellSilent) {
   welcome();
 }
 
+TEST_F(DisplayProcess, JoinsAgainWhereANewControllerDoesNotKnowIt) {
+  Child display({"--controller", control_.endpoint(), "--log", "off"});
+  welcome();
+  proto::Envelope stranger;
+  stranger.mutable_refused()->set_reason("not a member of this cluster");
+  ASSERT_TRUE(control_.send_to(display_, stranger));
+  welcome();
+}
+
 TEST_F(DisplayProcess, FailsWithTheReasonWhereItIsRefusedOrItsEndpointIsTaken) {
   Child refused({"--controller", control_.endpoint(), "--log", "off"});
   const auto join = expect(control_, [](const auto& e) { return e.has_join(); });

@@ -41,7 +41,7 @@ glm::dvec3 waves(std::uint64_t seed, double cycles, double u, double v) {
 }
 
 proto::Material wavy_material(SceneBuilder& scene, const std::string& name, std::uint64_t seed, double cycles) {
-  constexpr int kSize = 1024;
+  constexpr int kSize = 512;  // 40 texels and more a wave
   const std::string picture =
       scene.add_picture(painted_png(kSize, kSize, [&](double u, double v) { return waves(seed, cycles, u, v); }));
   proto::Material material = textured_material(name, picture, proto::Texture::CLAMP_TO_EDGE);
@@ -71,13 +71,13 @@ Status make_room(std::uint64_t, Extent extent, SceneBuilder& scene) {
   const double h = extent.height_m;
   const double d = extent.height_m;
   const glm::dvec3 low(-w / 2, -h / 2, -d / 2);
-  const glm::dvec3 high = -low;
   const std::array<Rectangle, 6> walls = {
       Rectangle{
           .origin = low + glm::dvec3(0, 0, d), .u = {w, 0, 0}, .v = {0, 0, -d}, .color = {0.60F, 0.55F, 0.50F, 1}},
       Rectangle{.origin = low + glm::dvec3(0, h, 0), .u = {w, 0, 0}, .v = {0, 0, d}, .color = {0.90F, 0.90F, 0.90F, 1}},
       Rectangle{.origin = low, .u = {w, 0, 0}, .v = {0, h, 0}, .color = {0.35F, 0.50F, 0.80F, 1}},
-      Rectangle{.origin = high, .u = {-w, 0, 0}, .v = {0, -h, 0}, .color = {0.80F, 0.80F, 0.30F, 1}},
+      Rectangle{
+          .origin = low + glm::dvec3(w, 0, d), .u = {-w, 0, 0}, .v = {0, h, 0}, .color = {0.80F, 0.80F, 0.30F, 1}},
       Rectangle{
           .origin = low + glm::dvec3(0, 0, d), .u = {0, 0, -d}, .v = {0, h, 0}, .color = {0.80F, 0.30F, 0.25F, 1}},
       Rectangle{

@@ -20,12 +20,12 @@ constexpr int kAlong = 492;  // steps along the spiral
 constexpr int kAround = 30;  // steps around the tube
 static_assert(2 * kAlong * kAround == 29520);
 
-constexpr double kTurns = 3.4;
+constexpr double kTurns = 4.6;
 constexpr double kGrowth = 2.15;      // of the radius, per turn
 constexpr double kTubeRadius = 0.40;  // of the spiral's radius: whorls overlap a little
 constexpr double kThickness = 0.80;   // of the tube along the axis, to that across
-constexpr double kRibsPerTurn = 19;
-constexpr double kRadius = 0.135;  // of the spiral at its mouth, metres
+constexpr double kRibsPerTurn = 17;
+constexpr double kRadius = 0.172;  // of the spiral at its mouth, metres
 constexpr int kTexels = 512;
 
 // A point of the shell's surface: s in [0, 1] along the spiral, t in [0, 1] around the tube, 0 at the outside.
@@ -36,7 +36,8 @@ glm::dvec3 shell_point(double s, double t) {
   // Ribs bend forward toward the outside, are strongest there and end before the inner side.
   const double outside = 0.5 + 0.5 * std::cos(phi);
   const double rib = std::cos(kRibsPerTurn * theta + 1.4 * outside);
-  const double relief = 0.075 * std::pow(outside, 0.6) * (0.5 + 0.5 * rib) * std::abs(0.5 + 0.5 * rib);
+  const double crest = 0.5 + 0.5 * rib;
+  const double relief = 0.13 * std::pow(outside, 0.55) * crest * crest;
   const double flare = 1 + 0.10 * glm::smoothstep(0.965, 1.0, s);  // the lip
   const double tube = radius * kTubeRadius * flare;
   const double across = radius + tube * (1 + relief) * std::cos(phi);
@@ -71,7 +72,7 @@ MeshArrays shell_mesh() {
       const double s = static_cast<double>(ring) / kAlong;
       const double t = static_cast<double>(step) / kAround;
       arrays.position.push_back(snapped(shell_point(s, step == kAround ? 0.0 : t)));
-      arrays.uv.emplace_back(static_cast<float>(s * kTurns * 2), static_cast<float>(t));
+      arrays.uv.emplace_back(static_cast<float>(s * kTurns * 1.5), static_cast<float>(t));
     }
   }
   for (std::uint32_t ring = 0; ring < kAlong; ++ring) {
@@ -91,13 +92,13 @@ glm::dvec3 nacre(std::uint64_t seed, double u, double v) {
   const double fine = 0.5 + 0.5 * std::sin(2 * kPi * (38 * u + 2 * wander));
   const double outside = 0.5 + 0.5 * std::cos(2 * kPi * v);
   const glm::dvec3 cream(0.96, 0.87, 0.72);
-  const glm::dvec3 amber(0.83, 0.55, 0.30);
+  const glm::dvec3 amber(0.86, 0.63, 0.42);
   const glm::dvec3 russet(0.52, 0.24, 0.13);
-  glm::dvec3 color = glm::mix(cream, amber, 0.75 * glm::smoothstep(0.25, 0.9, band));
+  glm::dvec3 color = glm::mix(cream, amber, 0.70 * glm::smoothstep(0.25, 0.9, band));
   const double patches = tiled_octaves(seed + 10, u, v, 5, 4, 4);
   color = glm::mix(color, russet, 0.85 * glm::smoothstep(0.52, 0.72, patches) * (0.35 + 0.65 * outside));
   const double sheen = tiled_octaves(seed + 20, u, v, 3, 6, 3);
-  color += 0.10 * glm::dvec3(std::cos(2 * kPi * sheen), std::cos(2 * kPi * (sheen + 0.33)),
+  color += 0.04 * glm::dvec3(std::cos(2 * kPi * sheen), std::cos(2 * kPi * (sheen + 0.33)),
                              std::cos(2 * kPi * (sheen + 0.67)));
   return color * (0.90 + 0.10 * fine);
 }
@@ -168,13 +169,13 @@ Status make_ribbed_shell(std::uint64_t seed, Extent, SceneBuilder& scene) {
 
   proto::Material shell = painted(scene, "nacre", painter(nacre, 400));
   shell.set_double_sided(true);  // one looks into the mouth
-  glm::dmat4 world_from_shell = glm::translate(glm::dmat4(1.0), {0.015, 0.218, 0.0});
-  world_from_shell = glm::rotate(world_from_shell, -0.32, {0, 1, 0});
-  world_from_shell = glm::rotate(world_from_shell, 0.35, {0, 0, 1});
+  glm::dmat4 world_from_shell = glm::translate(glm::dmat4(1.0), {-0.02, 0.272, 0.0});
+  world_from_shell = glm::rotate(world_from_shell, -0.42, {0, 1, 0});
+  world_from_shell = glm::rotate(world_from_shell, 0.12, {0, 0, 1});
   LFD_TRY_STATUS(add(scene, shell_mesh(), std::move(shell), world_from_shell));
 
   scene.add_light(ambient_light({0.34, 0.35, 0.38}));
-  scene.add_light(directional_light({0.62, 0.58, 0.52}, {0.55, -0.75, -0.65}));
+  scene.add_light(directional_light({0.70, 0.64, 0.55}, {0.62, -0.62, -0.50}));
   scene.add_light(point_light({0.035, 0.026, 0.016}, {0.34, 0.36, 0.26}, 0.0));
   return {};
 }

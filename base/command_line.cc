@@ -1,5 +1,5 @@
 // Command lines through CLI11.
-#include "cli/command_line.h"
+#include "base/command_line.h"
 
 #include <cstdio>
 #include <iostream>

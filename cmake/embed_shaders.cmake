@@ -1,0 +1,10 @@
+# Writes OUT: a C++ table of the files NAMES (comma-separated) of FOLDER. Run with cmake -P.
+string(REPLACE "," ";" names "${NAMES}")
+set(text "// Generated from shaders/; do not edit.\n#include \"shaders/embedded.h\"\n\nnamespace lfd {\n\n")
+string(APPEND text "const std::vector<EmbeddedShader>& embedded_shaders() {\n  static const std::vector<EmbeddedShader> table = {\n")
+foreach(name ${names})
+  file(READ ${FOLDER}/${name} source)
+  string(APPEND text "      {\"${name}\", R\"shader(${source})shader\"},\n")
+endforeach()
+string(APPEND text "  };\n  return table;\n}\n\n}  // namespace lfd\n")
+file(WRITE ${OUT} "${text}")

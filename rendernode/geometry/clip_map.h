@@ -1,0 +1,41 @@
+// Where the vertex shader puts a corner, in double precision: the twin of shaders/passes/surface.vert.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "calibration/display.h"
+
+namespace lfd {
+
+// A corner before the division: (u w, v w, w) in pixels. What lies between two corners is drawn on the straight line between them.
+using ClipPoint = glm::dvec3;
+
+// The map of one module, prepared for many points. Unlike image_from_physical it goes on beside the screen and the image, and
+// beyond the radius where a distortion turns back: a triangle's corner needs a place there too.
+class ClipMap {
+ public:
+  ClipMap(const DisplayCalibration& display, const ModuleCalibration& module);
+
+  // Absent where there is no place: w <= 0, or behind a homography's horizon or a pinhole.
+  std::optional<ClipPoint> clip_from_physical(Point3<Physical> p) const;
+
+  // The screen point alone, and w in z.
+  glm::dvec3 screen_from_physical(Point3<Physical> p) const;
+
+ private:
+  std::optional<glm::dvec2> image_from_screen(glm::dvec2 s) const;
+
+  const DisplayCalibration* display_;
+  const ModuleCalibration* module_;
+  glm::dmat3 homography_{1.0};  // ideal and homography maps
+  glm::dmat3 rotation_{1.0};    // pinholes: module_from_physical
+  double limit_ = 0;            // pinholes: largest radius that can be inverted
+};
+
+// 3x3 homography of an ideal map.
+glm::dmat3 ideal_homography(ScreenSize screen, ImageSize image);
+
+}  // namespace lfd

@@ -1,0 +1,19 @@
+// The limits in z within which geometry is drawn, and the depth that is written for it.
+#pragma once
+
+#include "calibration/display.h"
+#include "proto/settings.h"
+
+namespace lfd {
+
+// Physical z, metres. Geometry before `front` and behind `back` is cut away; every module has images in between.
+struct DepthLimits {
+  double front = 0, back = 0;
+  double depth_scale = 1;  // clip.z = depth_scale (front - z); at most w everywhere between the limits
+};
+
+// The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back at least
+// 0.1 % before the nearest plane where some module on some row of the screen has a singularity. Defaults: settings.proto.
+DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings& settings);
+
+}  // namespace lfd

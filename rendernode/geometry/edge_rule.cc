@@ -1,0 +1,122 @@
+// The rule for edges.
+#include "rendernode/geometry/edge_rule.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace lfd {
+namespace {
+
+constexpr int kSlices = 64;
+constexpr double kAlongFactor = 5;
+constexpr double kBendMargin = 2;      // the bend is sampled, not proven
+constexpr double kScreenMargin = 1.1;  // edges this far beside the screen cannot be seen
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Both ends beside the same border of the screen: nothing of the edge is seen, straight or not.
+bool beside(ScreenSize screen, glm::dvec3 a, glm::dvec3 b) {
+  const double x = kScreenMargin * 0.5 * screen.width_m, y = kScreenMargin * 0.5 * screen.height_m;
+  return (a.x > x && b.x > x) || (a.x < -x && b.x < -x) || (a.y > y && b.y > y) || (a.y < -y && b.y < -y);
+}
+
+}  // namespace
+
+EdgeRule::EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const DepthLimits& limits,
+                   double tolerance_px)
+    : display_(&display), limits_(limits), tolerance_px_(tolerance_px) {
+  for (const auto k : modules) {
+    maps_.emplace_back(display, display.modules[k]);
+    emitters_.push_back(display.modules[k].emitter);
+  }
+  measure_bend();
+}
+
+double EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
+  const auto clip_a = map.clip_from_physical(a), clip_b = map.clip_from_physical(b);
+  if (!clip_a && !clip_b) return 0;
+  if (!clip_a || !clip_b) return kInfinity;
+  const glm::dvec2 edge = glm::dvec2(*clip_b) / clip_b->z - glm::dvec2(*clip_a) / clip_a->z;
+  const double edge_px = glm::length(edge);
+  const glm::dvec2 along = edge_px > 0 ? edge / edge_px : glm::dvec2(1, 0);
+  double worst = 0;
+  for (const double t : {0.5, 0.25, 0.75}) {
+    const Point3<Physical> p{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+    const auto truly = map.clip_from_physical(p);
+    if (!truly) return kInfinity;
+    const ClipPoint drawn = (1 - t) * *clip_a + t * *clip_b;
+    const glm::dvec2 off = glm::dvec2(*truly) / truly->z - glm::dvec2(drawn) / drawn.z;
+    const double beside_px = std::abs(off.x * along.y - off.y * along.x);
+    worst = std::max({worst, beside_px, std::abs(glm::dot(off, along)) / kAlongFactor});
+  }
+  return worst / tolerance_px_;
+}
+
+double EdgeRule::deviation(Point3<Physical> a, Point3<Physical> b) const {
+  double worst = 0;
+  for (const auto& map : maps_) {
+    if (beside(display_->screen, map.screen_from_physical(a), map.screen_from_physical(b))) continue;
+    worst = std::max(worst, deviation_in(map, a, b));
+  }
+  return worst;
+}
+
+double EdgeRule::bend_between(double z0, double z1) const {
+  const auto slice = [&](double z) {
+    const double share = (z - limits_.back) / (limits_.front - limits_.back);
+    return std::clamp(static_cast<int>(share * kSlices), 0, kSlices - 1);
+  };
+  const auto [low, high] = std::minmax({slice(z0), slice(z1)});
+  return *std::max_element(bend_.begin() + low, bend_.begin() + high + 1);
+}
+
+bool EdgeRule::must_split(Point3<Physical> a, Point3<Physical> b) const {
+  // One order for both triangles that share the edge: rounding must not make them differ.
+  if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) std::swap(a, b);
+  const Vector3<Physical> d = b - a;
+  if (bend_between(a.z, b.z) * dot(d, d) <= 1) return false;
+  for (const auto& map : maps_) {
+    if (beside(display_->screen, map.screen_from_physical(a), map.screen_from_physical(b))) continue;
+    if (deviation_in(map, a, b) > 1) return true;
+  }
+  return false;
+}
+
+void EdgeRule::measure_bend() {
+  bend_.assign(kSlices, 0);
+  const double step = 1e-3 * (limits_.front - limits_.back);
+  constexpr std::array<double, 5> kPlaces{-1.1, -0.6, 0, 0.6, 1.1};
+  constexpr std::array<std::array<double, 3>, 7> kDirections{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.7, 0.7, 0}, {0, 0.7, 0.7}, {0.7, 0, 0.7}, {0.58, -0.58, 0.58}}};
+  for (int i = 0; i < kSlices; ++i) {
+    // Both borders of the slice, so that the steepest place of it is among the samples.
+    for (const double z : {limits_.back + (limits_.front - limits_.back) * i / kSlices,
+                           limits_.back + (limits_.front - limits_.back) * (i + 1) / kSlices}) {
+      for (std::size_t k = 0; k < maps_.size(); ++k) {
+        const Emitter emitter = emitters_[k];
+        for (const double x : kPlaces) {
+          for (const double y : kPlaces) {
+            // The point at height z that this screen point shows (for a conical diffuser roughly, which is enough).
+            const double spread = (z - emitter.z) / -emitter.z;
+            const double fall = 1 - z / display_->optics.observer_distance_m;
+            const double sx = 0.5 * display_->screen.width_m * x;
+            const Point3<Physical> p{emitter.x + (sx - emitter.x) * spread, 0.5 * display_->screen.height_m * y * fall, z};
+            for (const auto& d : kDirections) {
+              const Vector3<Physical> v{step * d[0], step * d[1], step * d[2]};
+              const double found = deviation_in(maps_[k], p, p + v);
+              if (std::isfinite(found)) bend_[static_cast<std::size_t>(i)] = std::max(bend_[static_cast<std::size_t>(i)], found / dot(v, v));
+            }
+          }
+        }
+      }
+    }
+  }
+  for (auto& bend : bend_) bend *= kBendMargin;
+}
+
+}  // namespace lfd

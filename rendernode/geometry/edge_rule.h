@@ -1,0 +1,43 @@
+// Which edges must be split, so that what is drawn straight is nowhere far from where the map would put it.
+//
+// A rasteriser draws the points between two corners on the straight line between their clip points; the map is not projective, so
+// they belong elsewhere. The rule looks at one edge at a time and at nothing else: triangles that share it decide alike, and no
+// crack opens (design geometry, section 4).
+#pragma once
+
+#include <vector>
+
+#include "rendernode/geometry/clip_map.h"
+#include "rendernode/geometry/depth_limits.h"
+
+namespace lfd {
+
+class EdgeRule {
+ public:
+  // tolerance_px: how far the drawn edge may lie beside the true one; along the edge (which moves textures and depth, not
+  // outlines) five times as much is allowed. modules: those the geometry is drawn for.
+  EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const DepthLimits& limits,
+           double tolerance_px);
+
+  // Symmetric in its arguments.
+  bool must_split(Point3<Physical> a, Point3<Physical> b) const;
+
+  // Largest deviation over all modules that see the edge, in tolerances (tests: at most 1 where must_split says no).
+  double deviation(Point3<Physical> a, Point3<Physical> b) const;
+
+ private:
+  double deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
+  double bend_between(double z0, double z1) const;
+  void measure_bend();
+
+  const DisplayCalibration* display_;
+  std::vector<ClipMap> maps_;
+  std::vector<Emitter> emitters_;
+  DepthLimits limits_;
+  double tolerance_px_;
+  // Per slice of z: no edge of length L in it deviates by more than bend * L^2 tolerances. Measured over the screen with a margin,
+  // it only spares most short edges the exact test.
+  std::vector<double> bend_;
+};
+
+}  // namespace lfd

@@ -1,0 +1,162 @@
+// Cutting, splitting and writing triangles.
+#include "rendernode/geometry/triangle_feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+#include <optional>
+
+namespace lfd {
+namespace {
+
+constexpr std::uint32_t kNotWritten = std::numeric_limits<std::uint32_t>::max();
+constexpr int kMostSplits = 10;  // halvings of one edge; by then a rule that is never content has met a singularity
+
+std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physical> b, Point3<Physical> c) {
+  const Vector3<Physical> n = cross(b - a, c - a);
+  const double area2 = length(n);
+  if (!(area2 > 0) || !std::isfinite(area2)) return std::nullopt;
+  const Vector3<Physical> unit = (1 / area2) * n;
+  const Point3<Physical> centre = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3};
+  const double offset = dot(unit, centre - Point3<Physical>{});
+  return shared::PrimitivePlane{{unit.x, unit.y, unit.z, offset}, {}};
+}
+
+std::uint16_t half_of(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
+
+std::int16_t snorm_of(double value) { return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767)); }
+
+}  // namespace
+
+Corner between(const Corner& a, const Corner& b, double t) {
+  const auto mix = [t](double x, double y) { return x + t * (y - x); };
+  return {{mix(a.position.x, b.position.x), mix(a.position.y, b.position.y), mix(a.position.z, b.position.z)},
+          glm::mix(a.normal, b.normal, t), glm::mix(a.uv, b.uv, t), glm::mix(a.color, b.color, t)};
+}
+
+Corner middle_of(const Corner& a, const Corner& b) {
+  return {midpoint(a.position, b.position), 0.5 * (a.normal + b.normal), 0.5 * (a.uv + b.uv), 0.5 * (a.color + b.color)};
+}
+
+void TriangleFeed::begin_item(std::uint32_t material, std::vector<Corner> corners) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  item_ = {static_cast<std::uint32_t>(out_.indices.size()), 0, static_cast<std::uint32_t>(out_.planes.size()), material,
+           {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  corners_ = std::move(corners);
+  written_.assign(corners_.size(), kNotWritten);
+}
+
+void TriangleFeed::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  ++out_.source_triangles;
+  const std::array<Point3<Physical>, 3> p{corners_[a].position, corners_[b].position, corners_[c].position};
+  const auto plane = plane_of(p[0], p[1], p[2]);
+  if (!plane) {
+    ++out_.degenerate_triangles;
+    return;
+  }
+  const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
+  if (low < limits_.back || high > limits_.front) {
+    ++out_.cut_triangles;
+    if (high > limits_.back && low < limits_.front) add_cut({corners_[a], corners_[b], corners_[c]}, *plane);
+    return;
+  }
+  if (rule_.must_split(p[0], p[1]) || rule_.must_split(p[1], p[2]) || rule_.must_split(p[2], p[0])) {
+    split({corners_[a], corners_[b], corners_[c]}, *plane, 0);
+    return;
+  }
+  std::array<std::uint32_t, 3> index{a, b, c};
+  for (auto& i : index) {
+    if (written_[i] == kNotWritten) written_[i] = write(corners_[i]);
+    i = written_[i];
+  }
+  emit(index, p, *plane);
+}
+
+// Sutherland-Hodgman against the two limits, then a fan.
+void TriangleFeed::add_cut(const Triangle& triangle, const shared::PrimitivePlane& plane) {
+  std::vector<Corner> polygon(triangle.begin(), triangle.end());
+  for (const auto& [limit, sign] : {std::pair{limits_.front, -1.0}, std::pair{limits_.back, 1.0}}) {
+    std::vector<Corner> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Corner& here = polygon[i];
+      const Corner& next = polygon[(i + 1) % polygon.size()];
+      const double inside_here = sign * (here.position.z - limit), inside_next = sign * (next.position.z - limit);
+      if (inside_here >= 0) kept.push_back(here);
+      if ((inside_here < 0) != (inside_next < 0)) {
+        // From the same end whichever triangle asks, so that neighbours cut their edge at the same point.
+        const bool forward = inside_here < 0;
+        Corner crossing = forward ? between(here, next, inside_here / (inside_here - inside_next))
+                                  : between(next, here, inside_next / (inside_next - inside_here));
+        crossing.position.z = limit;
+        kept.push_back(crossing);
+      }
+    }
+    polygon = std::move(kept);
+  }
+  for (std::size_t i = 2; i < polygon.size(); ++i) split({polygon[0], polygon[i - 1], polygon[i]}, plane, 0);
+}
+
+// Halves every edge that the rule names: 1, 2 or 3 of them give 2, 3 or 4 triangles.
+void TriangleFeed::split(const Triangle& t, const shared::PrimitivePlane& plane, int depth) {
+  std::array<bool, 3> halve{};
+  int count = 0;
+  for (std::size_t i = 0; i < 3 && depth < kMostSplits; ++i) {
+    halve[i] = rule_.must_split(t[i].position, t[(i + 1) % 3].position);
+    count += halve[i] ? 1 : 0;
+  }
+  if (count == 0) return emit(t, plane);
+  const auto middle = [&](std::size_t i) { return middle_of(t[i], t[(i + 1) % 3]); };
+  if (count == 3) {
+    const Triangle m{middle(0), middle(1), middle(2)};
+    split({t[0], m[0], m[2]}, plane, depth + 1);
+    split({m[0], t[1], m[1]}, plane, depth + 1);
+    split({m[2], m[1], t[2]}, plane, depth + 1);
+    return split(m, plane, depth + 1);
+  }
+  // Turn the triangle so that edge 0 is halved and, of two, edge 1 as well.
+  std::size_t first = 0;
+  while (!halve[first] || (count == 2 && !halve[(first + 1) % 3])) ++first;
+  const Corner &a = t[first], &b = t[(first + 1) % 3], &c = t[(first + 2) % 3];
+  const Corner ab = middle(first);
+  if (count == 1) {
+    split({a, ab, c}, plane, depth + 1);
+    return split({ab, b, c}, plane, depth + 1);
+  }
+  const Corner bc = middle((first + 1) % 3);
+  split({ab, b, bc}, plane, depth + 1);
+  split({a, ab, bc}, plane, depth + 1);
+  split({a, bc, c}, plane, depth + 1);
+}
+
+void TriangleFeed::emit(const Triangle& t, const shared::PrimitivePlane& plane) {
+  emit({write(t[0]), write(t[1]), write(t[2])}, {t[0].position, t[1].position, t[2].position}, plane);
+}
+
+void TriangleFeed::emit(std::array<std::uint32_t, 3> index, const std::array<Point3<Physical>, 3>& p,
+                        shared::PrimitivePlane plane) {
+  const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
+  plane.z_range = {low, high, 0, 0};
+  out_.planes.push_back(plane);
+  out_.indices.insert(out_.indices.end(), index.begin(), index.end());
+  for (const auto& corner : p) {
+    item_.low = {std::min(item_.low.x, corner.x), std::min(item_.low.y, corner.y), std::min(item_.low.z, corner.z)};
+    item_.high = {std::max(item_.high.x, corner.x), std::max(item_.high.y, corner.y), std::max(item_.high.z, corner.z)};
+  }
+}
+
+std::uint32_t TriangleFeed::write(const Corner& c) {
+  const auto f = [](double value) { return static_cast<float>(value); };
+  out_.vertices.push_back({{f(c.position.x), f(c.position.y), f(c.position.z)},
+                           {snorm_of(c.normal.x), snorm_of(c.normal.y), snorm_of(c.normal.z), 0},
+                           {f(c.uv.x), f(c.uv.y)},
+                           {half_of(c.color.r), half_of(c.color.g), half_of(c.color.b), half_of(c.color.a)}});
+  return static_cast<std::uint32_t>(out_.vertices.size() - 1);
+}
+
+void TriangleFeed::end_item() {
+  item_.index_count = static_cast<std::uint32_t>(out_.indices.size()) - item_.first_index;
+  if (item_.index_count > 0) out_.items.push_back(item_);
+}
+
+}  // namespace lfd

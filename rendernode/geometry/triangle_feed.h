@@ -1,0 +1,54 @@
+// One instance's triangles on their way to the GPU: cut at the limits in z, split by the edge rule, written out.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rendernode/geometry/physical_geometry.h"
+
+namespace lfd {
+
+// A corner with everything that is interpolated, in double precision.
+struct Corner {
+  Point3<Physical> position;
+  glm::dvec3 normal{0};  // world
+  glm::dvec2 uv{0};
+  glm::dvec4 color{1};
+};
+
+Corner between(const Corner& a, const Corner& b, double t);
+
+// The same to the last bit whichever end comes first.
+Corner middle_of(const Corner& a, const Corner& b);
+
+class TriangleFeed {
+ public:
+  TriangleFeed(const DepthLimits& limits, const EdgeRule& rule, PhysicalGeometry& out)
+      : limits_(limits), rule_(rule), out_(out) {}
+
+  // Opens an item. corners: all vertices of its mesh.
+  void begin_item(std::uint32_t material, std::vector<Corner> corners);
+
+  // A triangle of the item by its vertices; most pass unsplit and share their corners.
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
+  // Closes the item; an empty one leaves no trace.
+  void end_item();
+
+ private:
+  using Triangle = std::array<Corner, 3>;
+  void add_cut(const Triangle& triangle, const shared::PrimitivePlane& plane);
+  void split(const Triangle& triangle, const shared::PrimitivePlane& plane, int depth);
+  void emit(const Triangle& triangle, const shared::PrimitivePlane& plane);
+  void emit(std::array<std::uint32_t, 3> index, const std::array<Point3<Physical>, 3>& p, shared::PrimitivePlane plane);
+  std::uint32_t write(const Corner& corner);
+
+  const DepthLimits& limits_;
+  const EdgeRule& rule_;
+  PhysicalGeometry& out_;
+  GeometryItem item_;
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> written_;  // output index of each corner, or kNotWritten
+};
+
+}  // namespace lfd

@@ -1,0 +1,121 @@
+// EGL without a window system.
+#include "rendernode/gl/context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <atomic>
+
+#include "base/log.h"
+
+namespace lfd::gl {
+namespace {
+
+std::atomic<int> errors{0};
+
+void GLAPIENTRY on_debug(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void*) {
+  if (type == GL_DEBUG_TYPE_ERROR) {
+    ++errors;
+    log::error("GL: {}", message);
+  } else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM) {
+    log::debug("GL: {}", message);
+  }
+}
+
+std::vector<EGLDeviceEXT> devices() {
+  // Client extensions exist before any display; without them the entry points may be missing.
+  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
+      !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base")) {
+    return {};
+  }
+  EGLint count = 0;
+  if (!eglQueryDevicesEXT(0, nullptr, &count) || count == 0) return {};
+  std::vector<EGLDeviceEXT> found(static_cast<std::size_t>(count));
+  if (!eglQueryDevicesEXT(count, found.data(), &count)) return {};
+  found.resize(static_cast<std::size_t>(count));
+  return found;
+}
+
+// The core name eglGetPlatformDisplay aborts in libepoxy before a display exists; the extension's does not.
+EGLDisplay device_display(EGLDeviceEXT device) { return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr); }
+
+EGLDisplay surfaceless_display() {
+  return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY), nullptr);
+}
+
+}  // namespace
+
+int Context::error_count() { return errors; }
+
+Status Context::open(void* display) {
+  if (display == EGL_NO_DISPLAY) return Error("no EGL display");
+  EGLint major = 0, minor = 0;
+  if (!eglInitialize(display, &major, &minor)) return Error(fmt::format("eglInitialize failed ({:#x})", eglGetError()));
+  display_ = display;
+  if (!eglBindAPI(EGL_OPENGL_API)) return Error("EGL has no desktop OpenGL");
+  const std::array<EGLint, 3> config_wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint configs = 0;
+  if (!eglChooseConfig(display, config_wanted.data(), &config, 1, &configs) || configs == 0) config = EGL_NO_CONFIG_KHR;
+  const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE, EGL_NONE};
+  context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
+  if (context_ == EGL_NO_CONTEXT) return Error(fmt::format("no OpenGL 4.5 core context ({:#x})", eglGetError()));
+  if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+    return Error(fmt::format("eglMakeCurrent failed ({:#x})", eglGetError()));
+  }
+  if (!epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array")) {
+    return Error("the driver lacks GL_ARB_shader_viewport_layer_array");
+  }
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(on_debug, nullptr);
+  description_ = fmt::format("{}, {}, OpenGL {}", reinterpret_cast<const char*>(glGetString(GL_VENDOR)),
+                             reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
+                             reinterpret_cast<const char*>(glGetString(GL_VERSION)));
+  return {};
+}
+
+Result<std::unique_ptr<Context>> Context::create(int gpu) {
+  const auto found = devices();
+  if (gpu >= static_cast<int>(found.size())) {
+    return Error(fmt::format("gpu {}: there are {} (see lfd-rendernode --list-gpus)", gpu, found.size()));
+  }
+  std::string reasons;
+  const auto attempt = [&reasons](EGLDisplay display) -> std::unique_ptr<Context> {
+    auto context = std::unique_ptr<Context>(new Context);
+    if (auto status = context->open(display); !status) {
+      reasons += "; " + status.error().message();
+      return nullptr;
+    }
+    return context;
+  };
+  for (int i = 0; i < static_cast<int>(found.size()); ++i) {
+    if (gpu >= 0 && i != gpu) continue;
+    if (auto context = attempt(device_display(found[static_cast<std::size_t>(i)]))) return context;
+  }
+  if (gpu < 0) {
+    if (auto context = attempt(surfaceless_display())) return context;
+  }
+  return Error("no usable OpenGL device" + reasons);
+}
+
+Context::~Context() {
+  if (display_ == nullptr) return;
+  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  if (context_ != nullptr) eglDestroyContext(display_, context_);
+  // The display itself stays initialised: EGL shares it within the process.
+}
+
+std::vector<Gpu> list_gpus() {
+  std::vector<Gpu> gpus;
+  for (int i = 0; i < static_cast<int>(devices().size()); ++i) {
+    auto context = Context::create(i);
+    gpus.push_back({i, context ? (*context)->description() : context.error().message(), static_cast<bool>(context)});
+  }
+  return gpus;
+}
+
+}  // namespace lfd::gl

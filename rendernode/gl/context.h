@@ -1,0 +1,46 @@
+// An OpenGL 4.5 core context without a window system, through EGL (device or surfaceless platform).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace lfd::gl {
+
+// One EGL device, as `lfd-rendernode --list-gpus` shows it.
+struct Gpu {
+  int index = 0;
+  std::string description;  // vendor, renderer and GL version, or why it cannot be used
+  bool usable = false;
+};
+
+std::vector<Gpu> list_gpus();
+
+// Current on the thread that made it until it is destroyed; it never changes threads. GL's debug output goes to the log.
+class Context {
+ public:
+  // gpu: an index of list_gpus(); -1: the first that works, then the surfaceless platform.
+  static Result<std::unique_ptr<Context>> create(int gpu);
+
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  ~Context();
+
+  // Vendor, renderer and version, for reports.
+  const std::string& description() const { return description_; }
+
+  // GL errors that the debug output has reported so far; tests want 0.
+  static int error_count();
+
+ private:
+  Context() = default;
+  Status open(void* display);
+
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+  std::string description_;
+};
+
+}  // namespace lfd::gl

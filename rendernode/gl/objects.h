@@ -1,0 +1,39 @@
+// Making GL objects by direct state access; sizes in pixels and bytes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "calibration/spaces/pixel.h"
+#include "rendernode/gl/handle.h"
+
+namespace lfd::gl {
+
+Framebuffer make_framebuffer();
+VertexArray make_vertex_array();
+Query make_query(GLenum target);
+
+// A two-dimensional array texture without content.
+Texture make_array_texture(GLenum internal_format, ImageSize size, int layers, int levels = 1);
+
+// A framebuffer over all layers of these array textures: color attachment i is colors[i]; depth may be 0.
+Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth);
+
+// A buffer with this content; never of size 0 (GL refuses that).
+template <class T>
+Buffer make_buffer(std::span<const T> content, GLbitfield flags = 0) {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  const T nothing{};
+  const bool empty = content.empty();
+  glNamedBufferStorage(name, static_cast<GLsizeiptr>(empty ? sizeof(T) : content.size_bytes()),
+                       empty ? &nothing : content.data(), flags);
+  return Buffer(name);
+}
+
+template <class T>
+Buffer make_buffer(const std::vector<T>& content, GLbitfield flags = 0) {
+  return make_buffer(std::span<const T>(content), flags);
+}
+
+}  // namespace lfd::gl

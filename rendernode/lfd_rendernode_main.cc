@@ -1,0 +1,93 @@
+// lfd-rendernode: draws the modules that a deployment gives it.
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/log.h"
+#include "base/signals.h"
+#include "base/command_line.h"
+#include "proto/calibration_file.h"
+#include "proto/deployment_file.h"
+#include "rendernode/gl/context.h"
+#include "rendernode/node/daemon.h"
+
+namespace lfd::node {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Arguments {
+  std::string deployment, display;
+  DaemonOptions options;
+  bool list_gpus = false;
+  std::string log_level = "info";
+};
+
+void add_options(CLI::App& app, Arguments& a) {
+  app.add_option("deployment", a.deployment, "Deployment file (*.textproto)");
+  app.add_option("--name", a.options.name, "Name of this node in the deployment");
+  app.add_option("--controller", a.options.controller, "Control endpoint of the controller; default: the deployment's");
+  app.add_option("--display", a.display, "Calibration file used instead of the deployment's");
+  app.add_option("--gpu", a.options.gpu, "Number of the GPU (--list-gpus); default: the deployment's, else the first that works");
+  app.add_flag("--list-gpus", a.list_gpus, "List the GPUs that EGL offers, and end");
+  app.add_option("--log-level", a.log_level, "trace, debug, info, warn, error or off")->capture_default_str();
+}
+
+int list() {
+  for (const auto& gpu : gl::list_gpus()) {
+    std::printf("%d  %s  %s\n", gpu.index, gpu.usable ? "usable  " : "unusable", gpu.description.c_str());
+  }
+  return kExitDone;
+}
+
+// Fills in what the command line leaves to the deployment.
+Status complete(Arguments& a) {
+  DeploymentOverrides overrides;
+  if (!a.display.empty()) overrides.display = a.display;
+  LFD_TRY(const Deployment deployment, load_deployment(a.deployment, overrides));
+  const auto node = std::ranges::find(deployment.nodes, a.options.name, &NodeShare::name);
+  if (node == deployment.nodes.end()) {
+    return Error(fmt::format("{}: it has no node \"{}\" (--name)", a.deployment, a.options.name));
+  }
+  if (a.options.gpu < 0 && deployment.message.node(static_cast<int>(node - deployment.nodes.begin())).gpu() > 0) {
+    a.options.gpu = node->gpu;
+  }
+  if (a.options.controller.empty()) a.options.controller = deployment.addresses.control;
+  if (a.options.controller.ends_with(":*")) {
+    return Error(fmt::format("{}: its control address has no fixed port; name the controller with --controller", a.deployment));
+  }
+  a.options.calibration_hash = calibration_hash(deployment.display);
+  return {};
+}
+
+int run(Arguments a) {
+  StopSignals signals;
+  start_log("node " + a.options.name, a.log_level);
+  if (const Status completed = complete(a); !completed) return fail(completed.error());
+  auto daemon = Daemon::open(std::move(a.options));
+  if (!daemon) return fail(daemon.error());
+  const Status ended = (*daemon)->run(signals);
+  const int code = ended ? kExitDone : fail(ended.error());
+  // A driver call cannot be interrupted; a frame that takes longer than this is given up with the process.
+  const bool drawn = (*daemon)->stop_drawing_within(1s);
+  if (!drawn) {
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace lfd::node
+
+int main(int argc, char** argv) {
+  CLI::App app("Draws the modules that a deployment gives to the node, and streams their images.", "lfd-rendernode");
+  app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it within 2 s, even while it draws.");
+  lfd::node::Arguments arguments;
+  lfd::node::add_options(app, arguments);
+  if (const auto code = lfd::parse_command_line(app, argc, argv)) return *code;
+  if (arguments.list_gpus) return lfd::node::list();
+  if (arguments.deployment.empty() || arguments.options.name.empty()) {
+    return lfd::wrong_use(lfd::Error("a deployment file and --name are needed (or --list-gpus)"));
+  }
+  return lfd::node::run(std::move(arguments));
+}

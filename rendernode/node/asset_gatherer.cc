@@ -1,0 +1,81 @@
+// Gathering assets piece by piece.
+#include "rendernode/node/asset_gatherer.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/hash.h"
+#include "base/log.h"
+
+namespace lfd::node {
+namespace {
+
+std::set<std::string> hashes_of(const proto::Scene& scene) {
+  std::set<std::string> hashes;
+  for (const auto& instance : scene.instance()) hashes.insert(instance.mesh());
+  for (const auto& material : scene.material()) {
+    if (material.has_texture()) hashes.insert(material.texture().picture());
+  }
+  return hashes;
+}
+
+}  // namespace
+
+void AssetGatherer::want(const proto::Scene& scene) {
+  const std::set<std::string> wanted = hashes_of(scene);
+  std::erase_if(assets_, [&](const auto& asset) { return !wanted.contains(asset.first); });
+  std::erase_if(missing_, [&](const auto& partial) { return !wanted.contains(partial.first); });
+  for (const auto& hash : wanted) {
+    if (!assets_.contains(hash)) missing_.try_emplace(hash);
+  }
+}
+
+std::vector<proto::Want> AssetGatherer::next_requests() {
+  std::vector<proto::Want> requests;
+  for (auto& [hash, partial] : missing_) {
+    // The first piece tells how long the asset is; until then nothing more of it is asked for.
+    while (under_way_ < kPiecesUnderWay && (partial.asked == 0 || partial.asked < partial.total)) {
+      proto::Want want;
+      want.set_hash(hash);
+      want.set_offset(partial.asked);
+      want.set_length(piece_bytes_);
+      partial.asked += piece_bytes_;
+      ++under_way_;
+      requests.push_back(std::move(want));
+    }
+  }
+  return requests;
+}
+
+Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view bytes) {
+  under_way_ = std::max(0, under_way_ - 1);
+  const auto found = missing_.find(chunk.hash());
+  if (found == missing_.end()) return {};  // no longer wanted
+  Partial& partial = found->second;
+  const std::uint64_t end = chunk.offset() + bytes.size();
+  const std::uint64_t expected = std::min<std::uint64_t>(chunk.offset() + piece_bytes_, chunk.total());
+  if (chunk.total() > kMaxAsset_bytes || end != expected || (partial.total != 0 && partial.total != chunk.total())) {
+    partial = {};
+    return Error(fmt::format("asset {}: a piece of {} bytes at {} of {} does not fit", chunk.hash(), bytes.size(), chunk.offset(),
+                             chunk.total()));
+  }
+  partial.total = chunk.total();
+  partial.bytes.resize(chunk.total());
+  std::ranges::copy(bytes, partial.bytes.begin() + static_cast<std::ptrdiff_t>(chunk.offset()));
+  partial.here += bytes.size();
+  if (partial.here < partial.total) return {};
+  if (content_hash(partial.bytes) != chunk.hash()) {
+    partial = {};
+    return Error(fmt::format("asset {}: what came has another hash", chunk.hash()));
+  }
+  assets_[chunk.hash()] = std::make_shared<const std::string>(std::move(partial.bytes));
+  missing_.erase(found);
+  return {};
+}
+
+void AssetGatherer::ask_again() {
+  under_way_ = 0;
+  for (auto& [hash, partial] : missing_) partial = {};
+}
+
+}  // namespace lfd::node

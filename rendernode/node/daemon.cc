@@ -1,0 +1,210 @@
+// The node's loop: joining, the state, assets.
+#include "rendernode/node/daemon.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/log.h"
+#include "base/version.h"
+#include "proto/calibration_file.h"
+#include "proto/wire/poll.h"
+
+namespace lfd::node {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kJoinPause = 300ms;
+constexpr auto kTick = 20ms;
+constexpr auto kLastWords = 200ms;
+constexpr auto kSnapshotPause = 500ms;
+constexpr int kSilentHeartbeats = 6;  // then the controller counts as away
+
+}  // namespace
+
+Result<std::unique_ptr<Daemon>> Daemon::open(DaemonOptions options) {
+  auto context = std::make_unique<wire::Context>();
+  LFD_TRY(wire::Socket control, wire::connect_dealer(*context, options.controller));
+  return std::unique_ptr<Daemon>(new Daemon(std::move(options), std::move(context), std::move(control)));
+}
+
+Status Daemon::run(StopSignals& signals) {
+  log::info("controller at {}", control_.endpoint());
+  std::string reason = "the controller said quit";
+  while (!ended_) {
+    wait_for_something(signals);
+    if (const auto signal = signals.take()) {
+      reason = fmt::format("signal {}", *signal);
+      break;
+    }
+    LFD_TRY_STATUS(hear_control());
+    hear_state();
+    hear_bulk();
+    begin_frames();
+    LFD_TRY_STATUS(take_events());
+    hear_display();
+    send_images();
+    join_or_beat(Clock::now());
+  }
+  proto::Envelope leave;
+  leave.mutable_leave()->set_reason(reason);
+  control_.linger(kLastWords);
+  say(leave);
+  log::info("ends: {}; {} frames were not sent for want of credit", reason, dropped_frames_);
+  return {};
+}
+
+void Daemon::wait_for_something(const StopSignals& signals) const {
+  std::vector<const wire::Socket*> sockets{&control_};
+  for (const auto* socket : {&state_socket_, &bulk_, &images_}) {
+    if (*socket) sockets.push_back(&**socket);
+  }
+  std::vector<int> descriptors{signals.descriptor()};
+  if (drawing_) descriptors.push_back(drawing_->descriptor());
+  wire::wait(sockets, descriptors, kTick);
+}
+
+void Daemon::say(const proto::Envelope& envelope) {
+  if (const Status sent = control_.send(envelope); !sent) log::debug("{}", sent.error().message());
+}
+
+void Daemon::join_or_beat(Clock::time_point now) {
+  if (welcome_ && now - last_heard_ > kSilentHeartbeats * heartbeat_) {
+    log::warn("nothing heard of the controller for {:.0f} ms; joining again", milliseconds(now - last_heard_));
+    welcome_ = false;
+    gatherer_.ask_again();
+  }
+  if (welcome_ && follower_.has_gap() && now >= next_snapshot_request_) {
+    next_snapshot_request_ = now + kSnapshotPause;
+    proto::Envelope request;
+    request.mutable_snapshot_request();
+    say(request);
+  }
+  if (now < next_words_) return;
+  next_words_ = now + (welcome_ ? heartbeat_ : Clock::duration(kJoinPause));
+  proto::Envelope words;
+  if (welcome_) {
+    words.mutable_heartbeat()->set_state_hash(ready_hash_);
+  } else {
+    auto* join = words.mutable_join();
+    join->set_role(proto::NODE);
+    join->set_name(options_.name);
+    join->set_version(kVersion);
+    join->set_calibration_hash(options_.calibration_hash);
+    join->set_process(static_cast<std::uint64_t>(::getpid()));
+  }
+  say(words);
+}
+
+Status Daemon::hear_control() {
+  while (const auto message = control_.receive()) {
+    last_heard_ = Clock::now();
+    const auto& envelope = message->envelope;
+    if (envelope.has_refused()) {
+      return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
+    }
+    if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope.welcome()));
+    if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
+    if (envelope.has_quit()) ended_ = true;
+  }
+  return {};
+}
+
+Status Daemon::welcome(const proto::Welcome& message) {
+  auto display = read_calibration(message.display());
+  if (!display) return display.error().within("the controller's display");
+  std::vector<std::uint32_t> modules(message.modules().begin(), message.modules().end());
+  for (const auto k : modules) {
+    if (k >= display->modules.size()) return Error(fmt::format("the controller gives module {} of {}", k, display->modules.size()));
+  }
+  LFD_TRY(state_socket_, wire::connect_subscriber(*context_, message.state_endpoint()));
+  LFD_TRY(bulk_, wire::connect_dealer(*context_, message.bulk_endpoint(), wire::kChunks));
+  if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
+  may_drop_ = message.may_drop();
+  sink_ = static_cast<proto::Deployment::Sink>(message.sink());
+  begun_.clear();
+  waiting_.clear();
+  hashes_.clear();
+  gatherer_.ask_again();
+  drawing_.reset();
+  if (!modules.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *std::move(display), std::move(modules));
+  follower_ = {};
+  take_snapshot(message.snapshot());
+  use_images_endpoint(message.images_endpoint());
+  welcome_ = true;
+  next_words_ = Clock::now();
+  log::info("joined; {} modules, state {}", message.modules_size(), follower_.sequence());
+  return {};
+}
+
+void Daemon::take_snapshot(const proto::Snapshot& snapshot) {
+  follower_.snapshot_came(snapshot.state());
+  if (!snapshot.images_endpoint().empty()) use_images_endpoint(snapshot.images_endpoint());
+  follow_assets();
+}
+
+void Daemon::hear_state() {
+  if (!state_socket_) return;
+  while (const auto message = state_socket_->receive()) {
+    last_heard_ = Clock::now();
+    const auto& envelope = message->envelope;
+    switch (envelope.body_case()) {
+      case proto::Envelope::kUpdate:
+        follower_.update_came(envelope.update());
+        if (envelope.update().has_images_endpoint()) use_images_endpoint(envelope.update().images_endpoint());
+        follow_assets();
+        break;
+      case proto::Envelope::kBegin:
+        follower_.pulse_came(envelope.begin().sequence());
+        begun_.push_back(envelope.begin());
+        begin_frames();  // before the next update: a frame is drawn from the state it names
+        break;
+      case proto::Envelope::kPulse:
+        follower_.pulse_came(envelope.pulse().sequence());
+        break;
+      case proto::Envelope::kQuit:
+        log::info("the controller says quit: {}", envelope.quit().reason());
+        ended_ = true;
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+// Asks for what is missing; once all is here, the state can be drawn, and the controller hears its hash.
+void Daemon::follow_assets() {
+  const auto& state = follower_.state();
+  if (!state || !state->has_scene() || state == ready_state_) return;
+  gatherer_.want(state->scene());
+  for (const auto& want : gatherer_.next_requests()) {
+    proto::Envelope request;
+    *request.mutable_want() = want;
+    if (!bulk_ || !bulk_->send(request)) {
+      gatherer_.ask_again();
+      break;
+    }
+  }
+  if (!gatherer_.complete()) return;
+  ready_state_ = state;
+  ready_assets_ = std::make_shared<const Assets>(gatherer_.assets());
+  const std::string hash = state_hash(*state);
+  if (hash == ready_hash_) return;
+  ready_hash_ = hash;
+  next_words_ = Clock::now();
+}
+
+void Daemon::hear_bulk() {
+  if (!bulk_) return;
+  while (const auto message = bulk_->receive()) {
+    if (message->envelope.has_not_found()) log::warn("the controller has no asset {}", message->envelope.not_found().hash());
+    if (!message->envelope.has_chunk()) continue;
+    if (const Status came = gatherer_.piece_came(message->envelope.chunk(), message->payload.text()); !came) {
+      log::warn("{}", came.error().message());
+    }
+  }
+  follow_assets();
+}
+
+}  // namespace lfd::node

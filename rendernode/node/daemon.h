@@ -1,0 +1,90 @@
+// The render node as a process: follows the state, gathers assets, has frames drawn, says how far it is, sends images.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/signals.h"
+#include "proto/wire/socket.h"
+#include "rendernode/node/asset_gatherer.h"
+#include "rendernode/node/image_outbox.h"
+#include "rendernode/node/render_thread.h"
+#include "rendernode/node/state_follower.h"
+
+namespace lfd::node {
+
+struct DaemonOptions {
+  std::string name;                            // as in the deployment
+  std::string controller;                      // control endpoint
+  int gpu = -1;                                // of --list-gpus; -1: the first that works
+  std::string calibration_hash;                // of the deployment's display, which the controller's must equal
+};
+
+class Daemon {
+ public:
+  static Result<std::unique_ptr<Daemon>> open(DaemonOptions options);
+
+  // Runs until a signal or the controller's Quit (success), a refusal, or a GPU that cannot be used. A controller that is
+  // away is waited for.
+  Status run(StopSignals& signals);
+
+  // Ends the drawing. False where a frame under way does not end in time: the process must not wait for it.
+  bool stop_drawing_within(Clock::duration patience) { return !drawing_ || drawing_->stop_within(patience); }
+
+ private:
+  Daemon(DaemonOptions options, std::unique_ptr<wire::Context> context, wire::Socket control)
+      : options_(std::move(options)), context_(std::move(context)), control_(std::move(control)) {}
+
+  // daemon.cc: the loop and the controller's words
+  void wait_for_something(const StopSignals& signals) const;
+  void join_or_beat(Clock::time_point now);
+  Status hear_control();
+  Status welcome(const proto::Welcome& message);
+  void hear_state();
+  void take_snapshot(const proto::Snapshot& snapshot);
+  void follow_assets();
+  void hear_bulk();
+  void say(const proto::Envelope& envelope);
+
+  // daemon_frames.cc: frames and images
+  void begin_frames();
+  Status take_events();
+  void hand_on(FrameEvent& event);
+  std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
+  void say_ready(std::uint64_t frame, proto::NodeReport report);
+  void hand_on_waiting();
+  void use_images_endpoint(const std::string& endpoint);
+  void hear_display();
+  void send_images();
+
+  DaemonOptions options_;
+  std::unique_ptr<wire::Context> context_;
+  wire::Socket control_;
+  std::optional<wire::Socket> state_socket_, bulk_, images_;
+  std::string images_endpoint_;
+
+  StateFollower follower_;
+  AssetGatherer gatherer_{wire::kChunk_bytes};
+  // The last state of which every asset is here, and those assets.
+  std::shared_ptr<const proto::State> ready_state_;
+  std::shared_ptr<const Assets> ready_assets_;
+  std::string ready_hash_;
+
+  std::unique_ptr<RenderThread> drawing_;
+  std::deque<proto::BeginFrame> begun_;          // announced, not yet given to the render thread
+  std::map<std::uint64_t, std::string> hashes_;  // of the state that each frame under way is drawn from
+  ImageOutbox outbox_;
+  std::deque<FrameEvent> waiting_;               // frames whose images wait for the outbox
+
+  bool welcome_ = false, may_drop_ = false, ended_ = false;
+  proto::Deployment::Sink sink_ = proto::Deployment::DISPLAY;
+  Clock::duration heartbeat_ = std::chrono::milliseconds(500);
+  Clock::time_point next_words_{}, last_heard_{}, next_hello_{}, next_snapshot_request_{};
+  std::uint64_t dropped_frames_ = 0;
+};
+
+}  // namespace lfd::node

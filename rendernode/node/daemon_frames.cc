@@ -1,0 +1,150 @@
+// Frames through the node: begin, drawn, ready, and the images on their way.
+#include <algorithm>
+
+#include "base/log.h"
+#include "rendernode/node/daemon.h"
+
+namespace lfd::node {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kHelloPause = 300ms;
+constexpr std::size_t kMostBegun = 8;
+
+}  // namespace
+
+// A frame is drawn as soon as its state is here; a node that is far behind passes the oldest over.
+void Daemon::begin_frames() {
+  while (begun_.size() > kMostBegun) begun_.pop_front();
+  while (!begun_.empty() && drawing_ && ready_state_ && ready_state_->sequence() >= begun_.front().sequence()) {
+    const proto::BeginFrame& begin = begun_.front();
+    if (!drawing_->draw({begin.frame(), ready_state_, ready_assets_, begin.time_modules()})) return;
+    hashes_[begin.frame()] = ready_hash_;
+    begun_.pop_front();
+  }
+}
+
+Status Daemon::take_events() {
+  while (drawing_) {
+    auto event = drawing_->take();
+    if (!event) break;
+    switch (event->kind) {
+      case FrameEvent::Kind::kStarted:
+        break;
+      case FrameEvent::Kind::kFailed:
+        return Error(event->error);
+      case FrameEvent::Kind::kDrawn: {
+        proto::Envelope drawn;
+        drawn.mutable_drawn()->set_frame(event->frame);
+        say(drawn);
+        break;
+      }
+      case FrameEvent::Kind::kReady:
+        waiting_.push_back(std::move(*event));
+        break;
+    }
+  }
+  hand_on_waiting();
+  return {};
+}
+
+// Without a deadline a frame is ready only once the images of the one before have gone: a slow display slows the show. With
+// one, its images are dropped: a slow display costs frames. Either way no more than two frames wait here.
+void Daemon::hand_on_waiting() {
+  while (!waiting_.empty()) {
+    const bool to_display = sink_ == proto::Deployment::DISPLAY;
+    if (to_display && !may_drop_ && !outbox_.idle()) return;
+    hand_on(waiting_.front());
+    waiting_.pop_front();
+  }
+}
+
+void Daemon::hand_on(FrameEvent& event) {
+  if (sink_ == proto::Deployment::DISPLAY) {
+    if (outbox_.idle()) {
+      outbox_.push(outgoing(event.frame, *event.result));
+    } else {
+      ++dropped_frames_;
+      event.result->report.add_warning("images dropped: the display gives no credit");
+    }
+  }
+  say_ready(event.frame, std::move(event.result->report));
+}
+
+std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResult& result) const {
+  std::vector<OutgoingImage> images;
+  for (const auto& image : result.images) {
+    OutgoingImage out;
+    out.header.set_frame(frame);
+    out.header.set_module(image.module);
+    out.header.set_buffer(image.kind);
+    out.header.set_format(image.kind == proto::COLOR ? proto::RGBA8 : proto::RGBA32F);
+    out.header.set_width_px(static_cast<std::uint32_t>(image.size.width));
+    out.header.set_height_px(static_cast<std::uint32_t>(image.size.height));
+    out.header.set_empty(image.empty);
+    out.header.set_of_images(static_cast<std::uint32_t>(result.images.size()));
+    if (image.empty) *out.header.mutable_background() = ready_state_->render().background();
+    if (image.kind == proto::POSITION) {
+      out.header.mutable_position_origin()->set_x(result.position_origin.x);
+      out.header.mutable_position_origin()->set_y(result.position_origin.y);
+      out.header.mutable_position_origin()->set_z(result.position_origin.z);
+    }
+    if (!image.empty) out.payload = wire::Payload(image.bytes);
+    images.push_back(std::move(out));
+  }
+  return images;
+}
+
+void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
+  report.set_node(options_.name);
+  if (const auto hash = hashes_.extract(frame)) report.set_state_hash(hash.mapped());
+  proto::Envelope ready;
+  ready.mutable_ready()->set_frame(frame);
+  *ready.mutable_ready()->mutable_report() = std::move(report);
+  say(ready);
+}
+
+void Daemon::use_images_endpoint(const std::string& endpoint) {
+  if (endpoint == images_endpoint_) return;
+  images_endpoint_ = endpoint;
+  outbox_.reconnected();
+  images_.reset();
+  if (endpoint.empty()) return;
+  auto socket = wire::connect_dealer(*context_, endpoint, wire::kImages);
+  if (!socket) {
+    log::error("images: {}", socket.error().message());
+    return;
+  }
+  images_ = std::move(*socket);
+  next_hello_ = Clock::now();
+  log::info("sends images to {}", endpoint);
+}
+
+// Greets until the first credit comes: a greeting sent while the display is away is lost.
+void Daemon::hear_display() {
+  if (!images_) return;
+  while (const auto message = images_->receive()) {
+    if (!message->envelope.has_credit()) continue;
+    outbox_.credit(message->envelope.credit().images());
+    next_hello_ = Clock::time_point::max();
+  }
+  if (Clock::now() < next_hello_) return;
+  next_hello_ = Clock::now() + kHelloPause;
+  proto::Envelope hello;
+  hello.mutable_hello()->set_node(options_.name);
+  if (const Status sent = images_->send(hello); !sent) log::trace("{}", sent.error().message());
+}
+
+void Daemon::send_images() {
+  if (!images_) return;
+  while (const OutgoingImage* image = outbox_.next()) {
+    proto::Envelope envelope;
+    *envelope.mutable_image() = image->header;
+    if (!images_->send(envelope, image->payload)) break;
+    outbox_.sent();
+  }
+  hand_on_waiting();
+}
+
+}  // namespace lfd::node

@@ -1,0 +1,73 @@
+// The thread that owns the GL context: takes jobs, draws, hands finished frames back.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "calibration/display.h"
+#include "proto/wire/mailbox.h"
+#include "rendernode/renderer.h"
+
+namespace lfd::node {
+
+struct DrawJob {
+  std::uint64_t frame = 0;
+  std::shared_ptr<const proto::State> state;
+  std::shared_ptr<const Assets> assets;
+  bool time_modules = false;
+};
+
+struct FrameEvent {
+  enum class Kind {
+    kStarted,  // the context is there
+    kDrawn,    // the GPU is done with the frame
+    kReady,    // its images are in hand
+    kFailed,   // there will be no more frames: `error`
+  };
+  Kind kind = Kind::kStarted;
+  std::uint64_t frame = 0;
+  std::optional<FrameResult> result;  // kReady
+  std::string error;
+};
+
+class RenderThread {
+ public:
+  RenderThread(int gpu, DisplayCalibration display, std::vector<std::uint32_t> modules);
+  // Ends after the frame under way.
+  ~RenderThread();
+
+  // False where too many jobs wait already.
+  bool draw(DrawJob job) { return jobs_.put(std::move(job)); }
+
+  // Frames given in and not yet ready.
+  int pending() const { return pending_; }
+  std::optional<FrameEvent> take();
+  int descriptor() const { return events_.descriptor(); }
+
+  // Asks it to end. True once it has; a driver call cannot be interrupted, so it may take as long as a frame.
+  bool stop_within(Clock::duration patience);
+
+ private:
+  void run(int gpu, DisplayCalibration display, std::vector<std::uint32_t> modules);
+  void loop(Renderer& renderer);
+  void begin(Renderer& renderer, DrawJob job);
+  void finish(Renderer& renderer);
+  void say(FrameEvent event);
+
+  struct UnderWay {
+    std::uint64_t frame = 0;
+    std::vector<std::string> warnings;
+  };
+  std::deque<UnderWay> under_way_;
+  wire::Mailbox<DrawJob> jobs_{8};
+  wire::Mailbox<FrameEvent> events_{64};
+  std::atomic<bool> stop_{false}, ended_{false};
+  std::atomic<int> pending_{0};
+  std::thread thread_;
+};
+
+}  // namespace lfd::node

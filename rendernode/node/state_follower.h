@@ -1,0 +1,30 @@
+// Follows the numbered updates of the state; notices gaps. No sockets, no clock.
+#pragma once
+
+#include <memory>
+
+#include "proto/state.h"
+
+namespace lfd::node {
+
+class StateFollower {
+ public:
+  // Absent until the first snapshot. What it points to never changes: an update makes a new state.
+  const std::shared_ptr<const proto::State>& state() const { return state_; }
+  std::uint64_t sequence() const { return state_ ? state_->sequence() : 0; }
+
+  // Numbers are missing: a snapshot must be asked for. Stays true until one has come.
+  bool has_gap() const { return gap_; }
+
+  void snapshot_came(const proto::State& state);
+  // Applies an update; an older one than the state is passed over, a later one than the next opens a gap.
+  void update_came(const proto::Update& update);
+  // The controller says which update was its last.
+  void pulse_came(std::uint64_t last_sequence);
+
+ private:
+  std::shared_ptr<const proto::State> state_;
+  bool gap_ = false;
+};
+
+}  // namespace lfd::node

@@ -1,0 +1,132 @@
+// The four generators and the shell.
+#include "rendernode/passes/ao_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+namespace lfd {
+namespace {
+
+// Uniform numbers in [0, 1) from the generator's raw bits: the library's distributions differ between platforms.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  double next() { return engine_() * (1.0 / 4294967296.0); }
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() * static_cast<double>(n)); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+double signed_unit(double u) { return 2 * u - 1; }
+
+std::vector<glm::dvec2> uniform_points(int count, Random& random) {
+  std::vector<glm::dvec2> points;
+  for (int i = 0; i < count; ++i) {
+    const double x1 = signed_unit(random.next());
+    points.push_back({x1, signed_unit(random.next())});
+  }
+  return points;
+}
+
+// One point in each cell of the most nearly square grid of `count` cells.
+std::vector<glm::dvec2> jittered_points(int count, Random& random) {
+  int rows = static_cast<int>(std::sqrt(static_cast<double>(count)));
+  while (count % rows != 0) --rows;
+  const int columns = count / rows;
+  std::vector<glm::dvec2> points;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double x1 = signed_unit((row + random.next()) / rows);
+      points.push_back({x1, signed_unit((column + random.next()) / columns)});
+    }
+  }
+  return points;
+}
+
+// One point in each row and each column of a count x count grid.
+std::vector<glm::dvec2> latin_points(int count, Random& random) {
+  std::vector<int> column(static_cast<std::size_t>(count));
+  std::iota(column.begin(), column.end(), 0);
+  for (std::size_t i = column.size(); i > 1; --i) std::swap(column[i - 1], column[random.below(i)]);
+  std::vector<glm::dvec2> points;
+  for (int row = 0; row < count; ++row) {
+    const double x1 = signed_unit((row + random.next()) / count);
+    points.push_back({x1, signed_unit((column[static_cast<std::size_t>(row)] + random.next()) / count)});
+  }
+  return points;
+}
+
+double wrapped_distance2(glm::dvec2 a, glm::dvec2 b) {
+  const double dx = a.x - b.x;
+  double dy = std::abs(a.y - b.y);
+  dy = std::min(dy, 2 - dy);
+  return dx * dx + dy * dy;
+}
+
+// Dart throwing with a radius that shrinks until exactly `count` points fit (x2 wraps around).
+std::vector<glm::dvec2> poisson_points(int count, Random& random) {
+  std::vector<glm::dvec2> points;
+  double radius = std::sqrt(4.0 / count);
+  while (static_cast<int>(points.size()) < count) {
+    bool placed = false;
+    for (int attempt = 0; attempt < 64 && !placed; ++attempt) {
+      const double x1 = signed_unit(random.next());
+      const glm::dvec2 candidate{x1, signed_unit(random.next())};
+      placed = std::ranges::all_of(points, [&](glm::dvec2 p) { return wrapped_distance2(p, candidate) >= radius * radius; });
+      if (placed) points.push_back(candidate);
+    }
+    if (!placed) radius *= 0.95;
+  }
+  return points;
+}
+
+glm::dvec3 on_sphere(glm::dvec2 x) {  // Algorithm 3
+  const double phi = std::numbers::pi * x.y, r = std::sqrt(std::max(0.0, 1 - x.x * x.x));
+  return {r * std::cos(phi), r * std::sin(phi), x.x};
+}
+
+}  // namespace
+
+std::vector<glm::dvec2> square_points(SampleGenerator generator, int count, std::uint32_t seed) {
+  Random random(seed);
+  switch (generator) {
+    case SampleGenerator::kUniform:
+      return uniform_points(count, random);
+    case SampleGenerator::kJittered:
+      return jittered_points(count, random);
+    case SampleGenerator::kLatinSquare:
+      return latin_points(count, random);
+    case SampleGenerator::kPoissonDisk:
+      return poisson_points(count, random);
+  }
+  return {};
+}
+
+std::vector<glm::vec4> shell_samples(const AoSettings& settings) {
+  const int count = settings.samples;
+  const int drawn = settings.point_symmetric ? (count + 1) / 2 : count;
+  const auto square = square_points(settings.generator, drawn, settings.seed);
+  Random random(settings.seed ^ 0x9e3779b9U);
+  const double inner3 = std::pow(settings.shell, 3);
+  std::vector<glm::vec4> samples;
+  for (const auto& x : square) {
+    const double radius = std::cbrt(inner3 + (1 - inner3) * random.next());  // Algorithm 4
+    const glm::dvec3 p = radius * on_sphere(x);
+    samples.emplace_back(p.x, p.y, p.z, 0);
+    if (settings.point_symmetric && static_cast<int>(samples.size()) < count) samples.emplace_back(-p.x, -p.y, -p.z, 0);
+  }
+  return samples;
+}
+
+std::vector<float> gaussian_weights(double sigma_px) {
+  const int taps = std::min(24, static_cast<int>(std::ceil(2.5 * sigma_px)));
+  std::vector<float> weights;
+  for (int i = 0; i <= taps; ++i) weights.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px))));
+  return weights;
+}
+
+}  // namespace lfd

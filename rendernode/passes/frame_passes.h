@@ -1,0 +1,61 @@
+// Submits the six passes of a frame (seeds/001, section 7) for all modules of the node at once.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "proto/settings.h"
+#include "rendernode/geometry/depth_limits.h"
+#include "rendernode/gl/program.h"
+#include "rendernode/passes/command_list.h"
+#include "rendernode/passes/gpu_modules.h"
+#include "rendernode/passes/gpu_scene.h"
+#include "rendernode/passes/targets.h"
+#include "rendernode/passes/timers.h"
+
+namespace lfd {
+
+// Everything a frame is drawn from; all of it outlives the calls.
+struct FrameInputs {
+  const GpuModules& modules;
+  const GpuMaterials& materials;
+  const GpuGeometry& geometry;
+  const GpuLights& lights;
+  const RegionOfInterest& roi;
+  const RenderSettings& settings;
+  const DepthLimits& limits;
+};
+
+class FramePasses {
+ public:
+  FramePasses();
+
+  // Submits all passes of the plan; nothing waits. Errors: a shader that the driver does not compile.
+  Status submit(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
+                PassTimers& timers);
+
+ private:
+  Result<GLuint> program(const std::string& vertex, const std::string& fragment, const gl::Flags& flags);
+  void bind_inputs(const CommandList& commands, const FrameInputs& inputs);
+  Status draw_surfaces(const char* fragment, gl::Flags flags, const Batch& batch, const FrameInputs& inputs);
+  Status z_prepass(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
+                   PassTimers& timers);
+  Status gbuffer(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
+                 PassTimers& timers);
+  Status ambient_occlusion(const CommandList& commands, const Targets& targets, PassTimers& timers);
+  Status blur(const CommandList& commands, double sigma_px, const Targets& targets, PassTimers& timers);
+  Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
+              PassTimers& timers);
+  void draw_layers(const CommandList& commands, const char* pass, PassTimers& timers);
+
+  std::map<std::string, gl::Program> programs_;
+  gl::VertexArray surface_array_, empty_array_;
+  gl::Buffer frame_params_, ao_params_, ao_samples_;
+};
+
+// What the shaders read of a frame.
+shared::FrameParams frame_params(const FrameInputs& inputs, int lights);
+
+}  // namespace lfd

@@ -1,0 +1,101 @@
+// Module parameters and pixel tables.
+#include "rendernode/passes/gpu_modules.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+#include <thread>
+
+#include "rendernode/geometry/clip_map.h"
+
+namespace lfd {
+namespace {
+
+using glm::vec4;
+
+vec4 row_of(const glm::dmat3& m, int row, double w = 0) { return {m[0][row], m[1][row], m[2][row], w}; }
+
+void fill_homography(shared::ModuleParams& params, const glm::dmat3& image_from_screen) {
+  const glm::dmat3 inverse = glm::inverse(image_from_screen);
+  params.image_from_screen_0 = row_of(image_from_screen, 0);
+  params.image_from_screen_1 = row_of(image_from_screen, 1);
+  params.image_from_screen_2 = row_of(image_from_screen, 2);
+  params.screen_from_image_0 = row_of(inverse, 0);
+  params.screen_from_image_1 = row_of(inverse, 1);
+  params.screen_from_image_2 = row_of(inverse, 2);
+}
+
+void fill_pinhole(shared::ModuleParams& params, const PinholeMap& map) {
+  const glm::dmat3 rotation = module_from_physical_rotation(map);
+  const glm::dvec3 offset = -(rotation * to_glm(map.position));
+  params.pinhole_0 = row_of(rotation, 0, offset.x);
+  params.pinhole_1 = row_of(rotation, 1, offset.y);
+  params.pinhole_2 = row_of(rotation, 2, offset.z);
+  params.focal_principal = {map.focal_u_px, map.focal_v_px, map.principal_u_px, map.principal_v_px};
+  const double limit = std::min(distortion_limit(map), 1e9);
+  params.distortion = {map.k1, map.k2, map.k3, limit * limit};
+  params.tangential = {map.p1, map.p2, 0, 0};
+}
+
+void fill_rows(const DisplayCalibration& display, const ModuleCalibration& module, int first, int last, float* out) {
+  constexpr float kNowhere = 1e30F;
+  for (int row = first; row < last; ++row) {
+    for (int column = 0; column < display.image.width; ++column) {
+      const auto s = screen_from_image(display, module, centre_of({column, row}));
+      float* texel = out + 2 * (static_cast<std::size_t>(row) * display.image.width + column);
+      texel[0] = s ? static_cast<float>(s->x) : kNowhere;
+      texel[1] = s ? static_cast<float>(s->y) : kNowhere;
+    }
+  }
+}
+
+}  // namespace
+
+shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module, int table_layer) {
+  shared::ModuleParams params{};
+  const auto* pinhole = std::get_if<PinholeMap>(&module.map);
+  params.emitter = {module.emitter.x, module.emitter.y, module.emitter.z, pinhole != nullptr ? 1 : 0};
+  params.observer = {display.optics.observer_height_m, display.optics.observer_distance_m,
+                     display.optics.diffuser == Diffuser::kConical ? 1 : 0, table_layer};
+  params.screen = {display.screen.width_m, display.screen.height_m, display.image.width, display.image.height};
+  if (pinhole != nullptr) {
+    fill_pinhole(params, *pinhole);
+  } else if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
+    fill_homography(params, homography->image_from_screen);
+  } else {
+    fill_homography(params, ideal_homography(display.screen, display.image));
+  }
+  return params;
+}
+
+std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCalibration& module) {
+  std::vector<float> table(2 * static_cast<std::size_t>(display.image.width) * display.image.height);
+  const int workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < workers; ++i) {
+    const int first = display.image.height * i / workers, last = display.image.height * (i + 1) / workers;
+    threads.emplace_back([&, first, last] { fill_rows(display, module, first, last, table.data()); });
+  }
+  threads.clear();
+  return table;
+}
+
+GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules) {
+  std::vector<shared::ModuleParams> params;
+  std::vector<std::uint32_t> tabulated;
+  for (const auto k : modules) {
+    const bool table = std::holds_alternative<PinholeMap>(display.modules[k].map);
+    params.push_back(module_params(display, display.modules[k], table ? static_cast<int>(tabulated.size()) : -1));
+    if (table) tabulated.push_back(k);
+  }
+  GpuModules gpu{gl::make_buffer(params), {}};
+  if (tabulated.empty()) return gpu;
+  gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(tabulated.size()));
+  for (std::size_t layer = 0; layer < tabulated.size(); ++layer) {
+    const auto table = pixel_table(display, display.modules[tabulated[layer]]);
+    glTextureSubImage3D(gpu.pixel_tables.name(), 0, 0, 0, static_cast<GLint>(layer), display.image.width, display.image.height,
+                        1, GL_RG, GL_FLOAT, table.data());
+  }
+  return gpu;
+}
+
+}  // namespace lfd

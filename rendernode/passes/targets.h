@@ -1,0 +1,46 @@
+// The pictures that passes write: array textures with one layer per module, made when a plan first needs them.
+#pragma once
+
+#include "rendernode/gl/objects.h"
+#include "rendernode/plan/frame_plan.h"
+
+namespace lfd {
+
+class Targets {
+ public:
+  Targets(ImageSize size, int layers) : size_(size), layers_(layers) {}
+
+  // Makes what the plan needs and is not there yet.
+  void prepare(const FramePlan& plan);
+
+  ImageSize size() const { return size_; }
+  int layers() const { return layers_; }
+
+  // SRGB8_ALPHA8; alpha: 1 lit, about 0.5 unlit, 0 no surface.
+  GLuint albedo() const { return albedo_.name(); }
+  // RGBA32F, world minus ROI centre; w 1 where there is a surface.
+  GLuint position() const { return position_.name(); }
+  // RGBA16F, world.
+  GLuint normal() const { return normal_.name(); }
+  // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back.
+  GLuint ao(int i) const { return ao_[i].name(); }
+  // SRGB8_ALPHA8, what the module shows. Without a post pass it is the albedo.
+  GLuint color(const FramePlan& plan) const { return plan.post ? color_.name() : albedo_.name(); }
+
+  // Framebuffers over all layers. geometry: albedo, position, normal as the plan needs them, and depth.
+  GLuint depth_only() const { return depth_framebuffer_.name(); }
+  GLuint geometry(const FramePlan& plan);
+  GLuint ao_framebuffer(int i) const { return ao_framebuffer_[i].name(); }
+  GLuint color_framebuffer() const { return color_framebuffer_.name(); }
+
+ private:
+  ImageSize size_;
+  int layers_;
+  gl::Texture albedo_, depth_, position_, normal_, color_;
+  gl::Texture ao_[2];
+  gl::Framebuffer depth_framebuffer_, color_framebuffer_;
+  gl::Framebuffer ao_framebuffer_[2];
+  gl::Framebuffer geometry_framebuffer_[2][2];  // [position][normal]
+};
+
+}  // namespace lfd

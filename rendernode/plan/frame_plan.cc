@@ -1,0 +1,111 @@
+// The decisions of a frame.
+#include "rendernode/plan/frame_plan.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/log.h"
+
+namespace lfd {
+namespace {
+
+class Planner {
+ public:
+  explicit Planner(const PlanInputs& inputs) : in_(inputs), everything_(!inputs.settings.plan) {}
+
+  FramePlan plan() {
+    choose_draws();
+    choose_passes();
+    return std::move(plan_);
+  }
+
+ private:
+  void leave_out(const char* what, const std::string& which, const char* why, std::uint64_t count = 1) {
+    proto::LeftOut left;
+    left.set_what(what);
+    left.set_which(which);
+    left.set_why(why);
+    left.set_count(count);
+    plan_.left_out.push_back(std::move(left));
+  }
+
+  void choose_draws() {
+    std::map<std::pair<int, bool>, DrawGroup> groups;
+    for (std::uint32_t layer = 0; layer < in_.modules->size(); ++layer) {
+      const std::uint32_t number = (*in_.modules)[layer];
+      const ModuleCalibration& module = in_.display->modules[number];
+      std::uint64_t unseen = 0;
+      bool seen = false;
+      for (std::uint32_t i = 0; i < in_.items->size(); ++i) {
+        const GeometryItem& item = (*in_.items)[i];
+        if (!everything_ && !may_be_seen(*in_.display, module, item.low, item.high)) {
+          ++unseen;
+          continue;
+        }
+        seen = true;
+        const MaterialFacts& material = (*in_.materials)[item.material];
+        DrawGroup& group = groups[{material.texture_group, material.alpha_mask}];
+        group.texture_group = material.texture_group;
+        group.alpha_mask = material.alpha_mask;
+        group.draws.push_back({i, layer});
+      }
+      if (seen || everything_) plan_.active_layers.push_back(layer);
+      if (!seen && !everything_) leave_out("module", std::to_string(number), "no geometry in its view");
+      if (seen && unseen > 0) leave_out("draw", fmt::format("of module {}", number), "outside the module's view", unseen);
+    }
+    // Opaque groups before masked ones: they fill the depth that spares the others work.
+    for (const bool masked : {false, true}) {
+      for (auto& [key, group] : groups) {
+        if (key.second == masked) plan_.groups.push_back(std::move(group));
+      }
+    }
+  }
+
+  void choose_passes() {
+    const bool any = !plan_.active_layers.empty();
+    const bool lit = !in_.settings.unlit &&
+                     std::ranges::any_of(*in_.items, [&](const GeometryItem& item) { return !(*in_.materials)[item.material].unlit; });
+    const bool textured = std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
+      return (*in_.materials)[item.material].texture_group >= 0;
+    });
+    if (!textured && any) leave_out("texture", "base colour", "no material has one");
+
+    const bool ao_asked = in_.settings.ao.enabled;
+    const bool ao_read = (lit && !in_.settings.unlit) || in_.buffers.has(proto::AO);
+    plan_.ao = ao_asked && (everything_ || (any && ao_read));
+    if (!ao_asked) {
+      leave_out("pass", "ao", "switched off");
+    } else if (!plan_.ao) {
+      leave_out("pass", "ao", any ? "every surface is unlit" : "no module sees geometry");
+    }
+    plan_.blur = plan_.ao && in_.settings.ao.blur_enabled;
+    if (!plan_.blur) leave_out("pass", "blur", plan_.ao ? "switched off" : "there is no ambient occlusion to blur");
+
+    plan_.post = everything_ || (any && lit);
+    if (!plan_.post) leave_out("pass", "post", any ? "every surface is unlit" : "no module sees geometry");
+    plan_.position = everything_ || plan_.ao || in_.buffers.has(proto::POSITION) || in_.buffers.has(proto::DEPTH) ||
+                     in_.buffers.has(proto::AO) || (plan_.post && in_.lights.need_position);
+    if (!plan_.position) leave_out("target", "position", "nothing reads it");
+    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (plan_.post && in_.lights.need_normal);
+    if (!plan_.normal) leave_out("target", "normal", "nothing reads it");
+    choose_prepass(any, textured);
+  }
+
+  // The prepass pays where a hidden fragment would cost texture fetches or several wide targets.
+  void choose_prepass(bool any, bool textured) {
+    plan_.z_prepass = everything_ || (any && textured);
+    if (!plan_.z_prepass) leave_out("pass", "z_prepass", any ? "no texture is fetched: hidden fragments are cheap" : "no module sees geometry");
+  }
+
+  const PlanInputs& in_;
+  const bool everything_;
+  FramePlan plan_;
+};
+
+}  // namespace
+
+FramePlan plan_frame(const PlanInputs& inputs) { return Planner(inputs).plan(); }
+
+}  // namespace lfd

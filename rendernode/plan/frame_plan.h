@@ -1,0 +1,71 @@
+// Decides what a frame needs: which modules, draws, passes and targets, and why the others are left out.
+//
+// It knows no GL: it is told the scene's items, the settings and what is asked for, and returns lists. Told to plan everything, it
+// leaves nothing out; the pictures are the same (a test holds that).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "calibration/display.h"
+#include "proto/settings.h"
+#include "proto/wire.pb.h"
+#include "rendernode/geometry/physical_geometry.h"
+
+namespace lfd {
+
+// Kinds of buffers asked for beside colour, by proto::BufferKind.
+struct BufferSet {
+  std::uint32_t bits = 0;
+  bool has(proto::BufferKind kind) const { return (bits >> kind & 1U) != 0; }
+  bool operator==(const BufferSet&) const = default;
+};
+
+// What a plan has to know of a material.
+struct MaterialFacts {
+  int texture_group = -1;  // which array texture holds its picture; -1: none
+  bool alpha_mask = false;
+  bool unlit = false;
+  bool operator==(const MaterialFacts&) const = default;
+};
+
+// What a plan has to know of the lights.
+struct LightFacts {
+  bool need_normal = false;    // any but ambient light
+  bool need_position = false;  // point and spot lights
+};
+
+struct PlanInputs {
+  const DisplayCalibration* display = nullptr;
+  const std::vector<std::uint32_t>* modules = nullptr;  // module number of each layer
+  const std::vector<GeometryItem>* items = nullptr;
+  const std::vector<MaterialFacts>* materials = nullptr;
+  LightFacts lights;
+  RenderSettings settings;
+  BufferSet buffers;
+};
+
+// Draws that one shader variant with one set of textures can make in one submission.
+struct DrawGroup {
+  int texture_group = -1;
+  bool alpha_mask = false;
+  struct Draw {
+    std::uint32_t item = 0, layer = 0;
+    bool operator==(const Draw&) const = default;
+  };
+  std::vector<Draw> draws;
+};
+
+struct FramePlan {
+  std::vector<DrawGroup> groups;
+  std::vector<std::uint32_t> active_layers;  // layers that anything is drawn into
+  bool z_prepass = true, position = true, normal = true, ao = true, blur = true, post = true;
+  std::vector<proto::LeftOut> left_out;
+};
+
+FramePlan plan_frame(const PlanInputs& inputs);
+
+// Whether anything within the bounds may have an image in the module: never false where it has one.
+bool may_be_seen(const DisplayCalibration& display, const ModuleCalibration& module, Point3<Physical> low, Point3<Physical> high);
+
+}  // namespace lfd

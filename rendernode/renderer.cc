@@ -1,0 +1,215 @@
+// The state of a node's renderer, and its frames.
+#include "rendernode/renderer.h"
+
+#include <google/protobuf/util/message_differencer.h>
+
+#include <algorithm>
+
+#include "base/log.h"
+#include "base/version.h"
+#include "rendernode/pack_images.h"
+
+namespace lfd {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+
+// Equal apart from where the instances stand and how the lights shine.
+bool same_materials(const proto::Scene& a, const proto::Scene& b) {
+  return std::ranges::equal(a.material(), b.material(), [](const auto& x, const auto& y) { return MessageDifferencer::Equals(x, y); });
+}
+
+bool same_instances(const proto::Scene& a, const proto::Scene& b) {
+  return std::ranges::equal(a.instance(), b.instance(), [](const auto& x, const auto& y) { return MessageDifferencer::Equals(x, y); });
+}
+
+}  // namespace
+
+Point3<World> position_origin(const RegionOfInterest& roi) {
+  const double distance = length(roi.world_centre - Point3<World>{});
+  return distance > 100 * roi.diagonal_m() ? roi.world_centre : Point3<World>{};
+}
+
+Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules)
+    : display_(std::move(display)),
+      modules_(std::move(modules)),
+      description_(context.description()),
+      gpu_modules_(upload_modules(display_, modules_)),
+      targets_(display_.image, static_cast<int>(modules_.size())) {}
+
+Status Renderer::set_state(const proto::State& state, const Assets& assets) {
+  if (state_ && MessageDifferencer::Equals(*state_, state)) return {};
+  LFD_TRY_STATUS(rebuild(state, assets));
+  // A new sequence number alone changes no picture.
+  proto::State before = state_.value_or(proto::State());
+  before.set_sequence(state.sequence());
+  if (!state_ || !MessageDifferencer::Equals(before, state)) state_changed_ = true;
+  state_ = state;
+  return {};
+}
+
+// Everything is made first and moved in last, so that an error leaves the running state alone.
+Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
+  const auto start = Clock::now();
+  LFD_TRY(const RenderSettings settings, read_settings(state.render()));
+  LFD_TRY(const RegionOfInterest roi, read_roi(state.roi()));
+  const bool first = !state_.has_value();
+  const bool new_rule = first || settings.subdivision_px != settings_.subdivision_px || settings.near_z_m != settings_.near_z_m ||
+                        settings.far_z_m != settings_.far_z_m;
+  const bool new_geometry = new_rule || !(roi == roi_) || !same_instances(state.scene(), state_->scene());
+  const bool new_materials = first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
+
+  DepthLimits limits = limits_;
+  std::unique_ptr<EdgeRule> rule;
+  if (new_rule) {
+    limits = depth_limits(display_, settings);
+    rule = std::make_unique<EdgeRule>(display_, modules_, limits, settings.subdivision_px);
+  }
+  std::optional<PhysicalGeometry> geometry;
+  if (new_geometry) {
+    LFD_TRY(geometry, build_geometry(state.scene(), assets, meshes_, roi, limits, rule ? *rule : *rule_));
+  }
+  std::optional<GpuMaterials> materials;
+  if (new_materials) {
+    LFD_TRY(materials, upload_materials(state.scene(), assets, settings.unlit));
+  }
+  if (rule) rule_ = std::move(rule);
+  limits_ = limits;
+  if (geometry) {
+    geometry_ = std::move(*geometry);
+    gpu_geometry_ = upload_geometry(geometry_);
+  }
+  if (materials) gpu_materials_ = std::move(*materials);
+  gpu_lights_ = upload_lights(state.scene(), roi);
+  settings_ = settings;
+  roi_ = roi;
+  geometry_ms_ += milliseconds(Clock::now() - start);
+  return {};
+}
+
+Status Renderer::draw(const FrameOptions& options) {
+  LFD_CHECK(under_way_ < 2, "two frames are under way");
+  if (!state_) return Error("there is no state to draw yet");
+  Slot& slot = slots_[static_cast<std::size_t>(next_slot_)];
+  const auto start = Clock::now();
+  slot.options = options;
+  slot.roi = roi_;
+  slot.ao = settings_.ao;
+  slot.geometry_ms = std::exchange(geometry_ms_, 0);
+  slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers && !last_images_.empty() &&
+                under_way_ == 0;
+  if (!slot.reused) {
+    slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_, options.buffers});
+    const CommandList commands = make_commands(slot.plan, geometry_.items, options.time_modules);
+    LFD_TRY_STATUS(passes_.submit(slot.plan, commands, {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
+                                  targets_, slot.timers));
+    slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image);
+    drawn_buffers_ = options.buffers;
+    state_changed_ = false;
+  }
+  slot.submit_ms = milliseconds(Clock::now() - start);
+  next_slot_ = 1 - next_slot_;
+  ++under_way_;
+  return {};
+}
+
+bool Renderer::finished(Clock::duration at_most) {
+  LFD_CHECK(under_way_ > 0, "no frame is under way");
+  Slot& oldest = slots_[static_cast<std::size_t>((next_slot_ + 2 - under_way_) % 2)];
+  return oldest.reused || oldest.readback.finished(at_most);
+}
+
+FrameResult Renderer::collect() {
+  LFD_CHECK(under_way_ > 0, "no frame is under way");
+  Slot& slot = slots_[static_cast<std::size_t>((next_slot_ + 2 - under_way_) % 2)];
+  FrameResult result;
+  result.position_origin = position_origin(slot.roi);
+  const auto start = Clock::now();
+  if (slot.reused) {
+    result.images = last_images_;
+  } else {
+    while (!slot.readback.finished(std::chrono::milliseconds(100))) {
+    }
+    if (slot.options.read_back) {
+      result.images = images_of(slot);
+      last_images_ = result.images;
+    }
+  }
+  fill_report(slot, result.report);
+  auto* readback = result.report.add_pass();
+  readback->set_pass("readback");
+  readback->set_cpu_ms(milliseconds(Clock::now() - start));
+  --under_way_;
+  return result;
+}
+
+std::vector<ReadbackItem> Renderer::wanted(const Slot& slot) const {
+  std::vector<ReadbackItem> items;
+  for (const auto layer : slot.plan.active_layers) {
+    items.push_back({layer, proto::COLOR, targets_.color(slot.plan), GL_RGBA, GL_UNSIGNED_BYTE, 4});
+    const BufferSet& asked = slot.options.buffers;
+    if (asked.has(proto::POSITION)) items.push_back({layer, proto::POSITION, targets_.position(), GL_RGBA, GL_FLOAT, 16});
+    if (asked.has(proto::NORMAL)) items.push_back({layer, proto::NORMAL, targets_.normal(), GL_RGBA, GL_FLOAT, 16});
+    if (asked.has(proto::DEPTH)) items.push_back({layer, proto::DEPTH, targets_.position(), GL_RGBA, GL_FLOAT, 16});
+    if (!asked.has(proto::AO)) continue;
+    // Without an ambient-occlusion pass every surface is open; the positions tell where one is.
+    if (slot.plan.ao) {
+      items.push_back({layer, proto::AO, targets_.ao(0), GL_RED, GL_FLOAT, 4});
+    } else {
+      items.push_back({layer, proto::AO, targets_.position(), GL_RGBA, GL_FLOAT, 16});
+    }
+  }
+  return items;
+}
+
+std::vector<ModuleImage> Renderer::images_of(const Slot& slot) const {
+  std::vector<ModuleImage> images;
+  const PackInputs pack{slot.roi, slot.ao, slot.plan.ao};
+  for (std::size_t i = 0; i < slot.readback.items().size(); ++i) {
+    const auto& item = slot.readback.items()[i];
+    images.push_back({modules_[item.layer], item.kind, display_.image, false, pack_image(item.kind, slot.readback.bytes(i), pack)});
+  }
+  append_empty(slot, images);
+  return images;
+}
+
+void Renderer::append_empty(const Slot& slot, std::vector<ModuleImage>& images) const {
+  for (std::uint32_t layer = 0; layer < modules_.size(); ++layer) {
+    if (std::ranges::binary_search(slot.plan.active_layers, layer)) continue;
+    for (const auto kind : {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}) {
+      if (kind != proto::COLOR && !slot.options.buffers.has(kind)) continue;
+      images.push_back({modules_[layer], kind, display_.image, true, nullptr});
+    }
+  }
+}
+
+void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
+  report.set_renderer(description_);
+  report.set_version(kVersion);
+  report.set_triangles(geometry_.planes.size());
+  auto* geometry = report.add_pass();
+  geometry->set_pass("geometry");
+  geometry->set_cpu_ms(slot.geometry_ms);
+  if (slot.reused) {
+    auto* left = report.add_left_out();
+    left->set_what("module");
+    left->set_which("all");
+    left->set_why("inputs unchanged since the last frame");
+    left->set_count(modules_.size());
+    return;
+  }
+  for (const auto& timed : slot.timers.collect()) {
+    auto* pass = report.add_pass();
+    pass->set_pass(timed.pass);
+    pass->set_gpu_ms(timed.gpu_ms);
+    for (const auto layer : timed.layers) {
+      if (slot.options.time_modules) pass->add_module(modules_[layer]);
+    }
+  }
+  for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
+  if (geometry_.degenerate_triangles > 0) {
+    report.add_warning(fmt::format("{} triangles without an area, or not finite, are not drawn", geometry_.degenerate_triangles));
+  }
+}
+
+}  // namespace lfd

@@ -1,0 +1,48 @@
+// The calibrated map of a module, screen <-> image: GLSL twins of calibration/maps. Needs lib/optics.glsl.
+
+vec2 distort(ModuleParams m, vec2 a) {
+  float r2 = dot(a, a);
+  float radial = 1.0 + r2 * (m.distortion.x + r2 * (m.distortion.y + r2 * m.distortion.z));
+  float p1 = m.tangential.x, p2 = m.tangential.y;
+  return a * radial + vec2(2.0 * p1 * a.x * a.y + p2 * (r2 + 2.0 * a.x * a.x), p1 * (r2 + 2.0 * a.y * a.y) + 2.0 * p2 * a.x * a.y);
+}
+
+// Pixel (xy) of a screen point; z is 1 where it has one, 0 where not. Points beside the image or the screen have values all the same;
+// beyond the radius where a distortion turns back it goes on straight (z is 0.5): no pixel, but a place for a triangle's corner.
+vec3 image_from_screen(ModuleParams m, vec2 s) {
+  if (m.emitter.w == 0.0) {
+    vec3 q = vec3(dot(m.image_from_screen_0.xyz, vec3(s, 1.0)), dot(m.image_from_screen_1.xyz, vec3(s, 1.0)),
+                  dot(m.image_from_screen_2.xyz, vec3(s, 1.0)));
+    return q.z > 0.0 ? vec3(q.xy / q.z, 1.0) : vec3(0.0);
+  }
+  vec4 p = vec4(s, 0.0, 1.0);
+  vec3 q = vec3(dot(m.pinhole_0, p), dot(m.pinhole_1, p), dot(m.pinhole_2, p));
+  vec2 a = q.xy / q.z;
+  if (!(q.z > 0.0)) return vec3(0.0);
+  float r2 = dot(a, a);
+  vec2 inner = r2 < m.distortion.w ? a : a * sqrt(m.distortion.w / r2);
+  return vec3(m.focal_principal.xy * (distort(m, inner) + (a - inner)) + m.focal_principal.zw, r2 < m.distortion.w ? 1.0 : 0.5);
+}
+
+bool on_screen(ModuleParams m, vec2 s) { return all(lessThanEqual(abs(2.0 * s), m.screen.xy)); }
+
+bool in_image(ModuleParams m, vec2 pixel) {
+  return all(greaterThanEqual(pixel, vec2(0.0))) && all(lessThan(pixel, m.screen.zw));
+}
+
+// image(): pixel and z of a physical point; w is 1 where it has an image, else 0.
+vec4 image_from_physical(ModuleParams m, vec3 p) {
+  if (!(p.z > m.emitter.z) || !(p.z < m.observer.y)) return vec4(0.0);
+  vec3 s = screen_from_physical(m, p);
+  if (!(s.z > 0.0) || !on_screen(m, s.xy)) return vec4(0.0);
+  vec3 pixel = image_from_screen(m, s.xy);
+  if (pixel.z != 1.0 || !in_image(m, pixel.xy)) return vec4(0.0);
+  return vec4(pixel.xy, p.z, 1.0);
+}
+
+// Screen point of a pixel through the homography; pinholes read their pixel table instead.
+vec2 screen_from_image(ModuleParams m, vec2 pixel) {
+  vec3 p = vec3(pixel, 1.0);
+  vec3 q = vec3(dot(m.screen_from_image_0.xyz, p), dot(m.screen_from_image_1.xyz, p), dot(m.screen_from_image_2.xyz, p));
+  return q.xy / q.z;
+}

@@ -1,0 +1,32 @@
+// Per-pixel turning of sample sets. GLSL twin: rendernode/passes/ao_samples.h.
+
+// PCG hash (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering"): three well-mixed numbers of three.
+uvec3 pcg3d(uvec3 v) {
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  return v;
+}
+
+// A uniformly distributed rotation from three numbers in [0, 1) (Shoemake 1992): a turn about a random axis.
+mat3 random_rotation(vec3 u) {
+  const float two_pi = 6.28318530718;
+  float a = sqrt(1.0 - u.x), b = sqrt(u.x);
+  vec4 q = vec4(a * sin(two_pi * u.y), a * cos(two_pi * u.y), b * sin(two_pi * u.z), b * cos(two_pi * u.z));
+  vec3 q2 = q.xyz + q.xyz;
+  vec3 x = q.x * q2, y = q.y * q2, w = q.w * q2;
+  float zz = q.z * q2.z;
+  return mat3(1.0 - y.y - zz, x.y + w.z, x.z - w.y,
+              x.y - w.z, 1.0 - x.x - zz, y.z + w.x,
+              x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
+}
+
+mat3 rotation_of_pixel(uvec2 pixel, uint layer, uint seed) {
+  uvec3 h = pcg3d(uvec3(pixel, layer + seed * 4096u));
+  return random_rotation(vec3(h >> 8u) * (1.0 / 16777216.0));
+}

@@ -1,0 +1,51 @@
+// Pass 3, ambient occlusion by samples in a spherical shell (seeds/001, Algorithm 2), in the light-field form:
+// a sample counts as hidden if the surface stored at its own pixel is in front of it (larger physical z).
+#version 450 core
+#include "shared/bindings.glsl"
+#include "shared/module_params.glsl"
+#include "shared/frame_params.glsl"
+#include "shared/ao_params.glsl"
+#include "lib/optics.glsl"
+#include "lib/image_map.glsl"
+#include "lib/sampling.glsl"
+
+layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
+layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
+layout(std430, binding = BINDING_AO) readonly buffer Ao { AoParams ao; };
+layout(std430, binding = BINDING_AO_SAMPLES) readonly buffer AoSamples { vec4 samples[]; };  // in the unit shell
+layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
+
+flat in int layer;
+layout(location = 0) out float out_hidden;  // share of hidden samples; -1 where there is no surface
+
+// physical - physical of the ROI centre, of a world vector counted from it
+vec3 physical_from_world(vec3 p) {
+  return vec3(dot(frame.physical_from_world_0, vec4(p, 1.0)), dot(frame.physical_from_world_1, vec4(p, 1.0)),
+              dot(frame.physical_from_world_2, vec4(p, 1.0)));
+}
+
+bool is_hidden(ModuleParams m, vec3 s_in_world) {
+  vec4 q = image_from_physical(m, physical_from_world(s_in_world));
+  if (q.w == 0.0) return false;
+  vec4 surface = texelFetch(positions, ivec3(q.xy, layer), 0);
+  return surface.w != 0.0 && dot(frame.physical_from_world_2, vec4(surface.xyz, 1.0)) > q.z;
+}
+
+void main() {
+  vec4 p = texelFetch(positions, ivec3(gl_FragCoord.xy, layer), 0);
+  out_hidden = -1.0;
+  if (p.w == 0.0) return;
+  ModuleParams m = modules[layer];
+  mat3 turn = rotation_of_pixel(uvec2(gl_FragCoord.xy), uint(layer), uint(ao.radii.w));
+  int count = int(ao.radii.z);
+  float radius = ao.radii.x;
+  float most = 0.0;
+  for (int level = 0; level < int(ao.radii.y); ++level, radius *= 0.5) {
+    int hidden = 0;
+    for (int i = 0; i < count; ++i) {
+      if (is_hidden(m, p.xyz + radius * (turn * samples[i].xyz))) ++hidden;
+    }
+    most = max(most, float(hidden) / float(count));
+  }
+  out_hidden = most;
+}

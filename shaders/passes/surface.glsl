@@ -1,0 +1,39 @@
+// What both geometry passes do per pixel: the pixel's own line meets the triangle's plane. Needs lib/optics.glsl, lib/image_map.glsl.
+
+layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
+layout(std430, binding = BINDING_PLANES) readonly buffer Planes { PrimitivePlane planes[]; };
+layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialParams materials[]; };
+layout(binding = UNIT_TEXTURE) uniform sampler2DArray base_color_texture;
+#ifdef PIXEL_TABLE
+layout(binding = UNIT_PIXEL_TABLE) uniform sampler2DArray pixel_table;
+#endif
+
+vec2 screen_of_pixel(ModuleParams m, vec2 pixel) {
+#ifdef PIXEL_TABLE
+  if (m.observer.w >= 0.0) return texelFetch(pixel_table, ivec3(pixel, int(m.observer.w)), 0).xy;
+#endif
+  return screen_from_image(m, pixel);
+}
+
+// Physical point where the line of a pixel meets the triangle (w: 1 seen from the front, -1 from behind, 0 not at all).
+// The point is kept within the triangle's own range of z, which bounds the error where the line grazes the plane.
+vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 pixel) {
+  vec2 s = screen_of_pixel(m, pixel);
+  if (!on_screen(m, s)) return vec4(0.0);
+  vec3 direction = line_direction(m, s);
+  float slope = dot(plane.normal_offset.xyz, direction);
+  float t = (plane.normal_offset.w - dot(plane.normal_offset.xyz, vec3(s, 0.0))) / slope;
+  vec2 range = plane.z_range.xy / m.observer.y;
+  t = clamp(slope == 0.0 ? range.y : t, range.x, range.y);
+  return vec4(vec3(s, 0.0) + t * direction, slope >= 0.0 ? 1.0 : -1.0);
+}
+
+vec4 base_color(MaterialParams material, vec2 uv, vec4 color) {
+  vec4 result = material.base_color * color;
+#ifdef TEXTURED
+  vec3 uv1 = vec3(uv, 1.0);
+  vec2 place = vec2(dot(material.uv_transform_0.xyz, uv1), dot(material.uv_transform_1.xyz, uv1));
+  result *= texture(base_color_texture, vec3(place, material.uv_transform_0.w));
+#endif
+  return result;
+}

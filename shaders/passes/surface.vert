@@ -1,0 +1,53 @@
+// Both geometry passes: a vertex in physical space to the clip space of one module (one layer).
+#version 450 core
+#extension GL_ARB_shader_viewport_layer_array : require
+#include "shared/bindings.glsl"
+#include "shared/module_params.glsl"
+#include "shared/frame_params.glsl"
+#include "shared/draw_record.glsl"
+#include "lib/optics.glsl"
+#include "lib/image_map.glsl"
+
+layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
+layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
+
+layout(location = 0) in vec3 p_in_physical;
+layout(location = 1) in vec3 normal_in_world;
+layout(location = 2) in vec2 uv_in;
+layout(location = 3) in vec4 color_in;
+layout(location = 4) in uvec4 record;  // a DrawRecord, one per command
+
+invariant gl_Position;
+flat out uvec4 draw;
+#ifdef ATTRIBUTES
+out vec3 normal;
+out vec4 color;
+#endif
+#ifdef TEXTURED
+out vec2 uv;
+#endif
+
+// Depth is scale * (front - z) / w: it grows from 0 at the front limit, and along every pixel's line it orders as z does,
+// since w is the same function of z for all points of one line (design geometry, section 4).
+void main() {
+  ModuleParams m = modules[record.x];
+  vec3 s = screen_from_physical(m, p_in_physical);
+  vec3 pixel = image_from_screen(m, s.xy);
+  gl_Layer = int(record.x);
+  draw = record;
+#ifdef ATTRIBUTES
+  normal = normal_in_world;
+  color = color_in;
+#endif
+#ifdef TEXTURED
+  uv = uv_in;
+#endif
+  // A vertex without a pixel is put out of sight together with its triangle: behind everything, w > 0.
+  if (pixel.z == 0.0 || !(s.z > 0.0)) {
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    gl_ClipDistance[0] = -1.0;
+    return;
+  }
+  gl_ClipDistance[0] = 1.0;
+  gl_Position = vec4((2.0 * pixel.xy / m.screen.zw - 1.0) * s.z, frame.depth.y * (frame.depth.x - p_in_physical.z), s.z);
+}

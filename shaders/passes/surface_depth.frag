@@ -1,0 +1,32 @@
+// Pass 1, Z prepass: only what the G-buffer pass would draw leaves its depth.
+#version 450 core
+#include "shared/bindings.glsl"
+#include "shared/module_params.glsl"
+#include "shared/primitive_plane.glsl"
+#include "shared/material_params.glsl"
+#include "lib/optics.glsl"
+#include "lib/image_map.glsl"
+#include "passes/surface.glsl"
+
+flat in uvec4 draw;
+#ifdef ATTRIBUTES
+in vec4 color;
+#endif
+#ifdef TEXTURED
+in vec2 uv;
+#endif
+
+void main() {
+  ModuleParams m = modules[draw.x];
+  PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
+  MaterialParams material = materials[draw.z];
+  vec4 p = meet(m, plane, gl_FragCoord.xy);
+  if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
+#ifdef ALPHA_MASK
+  vec2 place = vec2(0.0);
+#ifdef TEXTURED
+  place = uv;
+#endif
+  if (base_color(material, place, color).a < material.flags.x) discard;
+#endif
+}

@@ -1,0 +1,51 @@
+// Pass 2, G-buffer: base colour, world position and normal of the visible surface.
+#version 450 core
+#include "shared/bindings.glsl"
+#include "shared/module_params.glsl"
+#include "shared/frame_params.glsl"
+#include "shared/primitive_plane.glsl"
+#include "shared/material_params.glsl"
+#include "lib/optics.glsl"
+#include "lib/image_map.glsl"
+#include "passes/surface.glsl"
+
+layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
+
+flat in uvec4 draw;
+in vec3 normal;
+in vec4 color;
+#ifdef TEXTURED
+in vec2 uv;
+#endif
+
+layout(location = 0) out vec4 out_albedo;    // linear colour; alpha 1 lit, 0.5 unlit, 0 no surface
+#ifdef WRITE_POSITION
+layout(location = 1) out vec4 out_position;  // world minus ROI centre; w 1
+#endif
+#ifdef WRITE_NORMAL
+layout(location = 2) out vec4 out_normal;    // world, unit, on the side that is seen
+#endif
+
+void main() {
+  ModuleParams m = modules[draw.x];
+  PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
+  MaterialParams material = materials[draw.z];
+  vec4 p = meet(m, plane, gl_FragCoord.xy);
+  if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
+  vec2 place = vec2(0.0);
+#ifdef TEXTURED
+  place = uv;
+#endif
+  vec4 base = base_color(material, place, color);
+#ifdef ALPHA_MASK
+  if (base.a < material.flags.x) discard;
+#endif
+  out_albedo = vec4(base.rgb, material.flags.z == 1.0 ? 0.5 : 1.0);
+#ifdef WRITE_POSITION
+  vec4 q = vec4(p.xyz, 1.0);
+  out_position = vec4(dot(frame.world_from_physical_0, q), dot(frame.world_from_physical_1, q), dot(frame.world_from_physical_2, q), 1.0);
+#endif
+#ifdef WRITE_NORMAL
+  out_normal = vec4(normalize(normal) * p.w, 1.0);
+#endif
+}

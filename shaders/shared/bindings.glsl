@@ -1,0 +1,15 @@
+// Binding points, said once for both languages.
+#define BINDING_MODULES 0
+#define BINDING_PLANES 1
+#define BINDING_MATERIALS 2
+#define BINDING_FRAME 3
+#define BINDING_LIGHTS 4
+#define BINDING_AO 5
+#define BINDING_AO_SAMPLES 6
+#define BINDING_LAYERS 7
+#define UNIT_TEXTURE 0
+#define UNIT_PIXEL_TABLE 1
+#define UNIT_ALBEDO 2
+#define UNIT_POSITION 3
+#define UNIT_NORMAL 4
+#define UNIT_AO 5

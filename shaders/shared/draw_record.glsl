@@ -1,0 +1,7 @@
+// One draw of one item into one module; indexed by the base instance.
+struct DrawRecord {
+  uint layer;           // of the array textures, and index of the module
+  uint primitive_base;  // first entry of the item's planes
+  uint material;
+  uint pad;
+};

@@ -1,0 +1,89 @@
+// lfd-calibrate as a person or a partner process uses it: answers, exit codes and messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace lfd {
+namespace {
+
+using testing::HasSubstr;
+
+struct Answer {
+  int exit_code = -1;
+  std::string text;  // standard output and standard error
+};
+
+// Runs the program through the shell, `input` on its standard input.
+Answer calibrate(const std::string& arguments, const std::string& input = "") {
+  const std::string command = "printf '" + input + "' | " + LFD_BIN_DIR + "/lfd-calibrate " + arguments + " 2>&1";
+  Answer answer;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return answer;
+  std::array<char, 4096> buffer;
+  for (std::size_t got = 0; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    answer.text.append(buffer.data(), got);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
+  return answer;
+}
+
+const std::string kDesk = std::string(LFD_SOURCE_DIR) + "/configs/displays/desk.textproto";
+
+TEST(LfdCalibrate, MapsPointsLineByLine) {
+  // On the screen the optics move nothing, and the ideal map fills 256 x 192 px with 0.4 x 0.3 m.
+  const Answer answer = calibrate("map " + kDesk + " --module 3", "0 0 0\\n0 0 0.9\\nnan 0 0\\n");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.text, "128 96 0\nnone\nnone\n");
+}
+
+TEST(LfdCalibrate, PrintsThePixelsLine) {
+  const Answer answer = calibrate("ray " + kDesk + " --module 0", "128 96\\n-1 5\\n");
+  EXPECT_EQ(answer.exit_code, 0);
+  double sx = 1, sy = 1, sz = 1, ox = 0, oy = 1, oz = 0;
+  ASSERT_EQ(std::sscanf(answer.text.c_str(), "%lf %lf %lf %lf %lf %lf", &sx, &sy, &sz, &ox, &oy, &oz), 6)
+      << answer.text;
+  EXPECT_EQ(sx, 0);
+  EXPECT_EQ(sy, 0);
+  EXPECT_EQ(sz, 0);
+  EXPECT_NEAR(ox, 0.8 * 0.36397023426620234, 1e-12);  // vz tan 20 degrees: opposite the leftmost emitter
+  EXPECT_EQ(oy, 0);
+  EXPECT_EQ(oz, 0.8);
+  EXPECT_THAT(answer.text, HasSubstr("\nnone\n"));
+}
+
+TEST(LfdCalibrate, NamesTheMalformedLine) {
+  const Answer answer = calibrate("map " + kDesk + " --module 3", "0 0 0\\n1 2\\n0 0 0\\n");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.text, HasSubstr("128 96 0\n"));
+  EXPECT_THAT(answer.text, HasSubstr("standard input:2: "));
+}
+
+TEST(LfdCalibrate, WrongUseSaysWhatWasMeant) {
+  EXPECT_EQ(calibrate("").exit_code, 2);
+  EXPECT_EQ(calibrate("--help").exit_code, 0);
+  EXPECT_EQ(calibrate("map " + kDesk + " --module 8").exit_code, 2);
+  const Answer command = calibrate("chek x"), option = calibrate("make desk --perturbe 1"),
+               name = calibrate("make dsk");
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_THAT(command.text, HasSubstr("did you mean check?"));
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_THAT(option.text, HasSubstr("did you mean --perturb?"));
+  EXPECT_EQ(name.exit_code, 2);
+  EXPECT_THAT(name.text, HasSubstr("did you mean desk?"));
+}
+
+TEST(LfdCalibrate, ChecksAndRefuses) {
+  EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
+  const Answer strict = calibrate("check " + kDesk + " --coverage 1.5");
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_THAT(strict.text, HasSubstr("missed: coverage"));
+  EXPECT_EQ(calibrate("check /no/such/file").exit_code, 1);
+}
+
+}  // namespace
+}  // namespace lfd
