@@ -1,4 +1,5 @@
 // lfd-rendernode: draws the modules that a deployment gives it.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "rendernode/renderer.h"
-
 namespace lfd {
 namespace {
 

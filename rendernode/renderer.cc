@@ -25,11 +25,6 @@ bool same_instances(const proto::Scene& a, const proto::Scene& b) {
 
 }  // namespace
 
-Point3<World> position_origin(const RegionOfInterest& roi) {
-  const double distance = length(roi.world_centre - Point3<World>{});
-  return distance > 100 * roi.diagonal_m() ? roi.world_centre : Point3<World>{};
-}
-
 Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules)
     : display_(std::move(display)),
       modules_(std::move(modules)),

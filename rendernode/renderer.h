@@ -38,9 +38,6 @@ struct FrameResult {
   proto::NodeReport report;       // passes, what was left out, triangles; names are the caller's to fill in
 };
 
-// What POSITION buffers are counted from: zero unless the ROI centre is more than 100 ROI diagonals from the world's origin.
-Point3<World> position_origin(const RegionOfInterest& roi);
-
 class Renderer {
  public:
   // `context` is current on this thread and outlives the renderer; modules: numbers, each below display.modules.size().

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/signals.h"
+#include "proto/deployment.pb.h"
 #include "proto/wire/socket.h"
 #include "rendernode/node/asset_gatherer.h"
 #include "rendernode/node/image_outbox.h"

@@ -28,12 +28,16 @@ vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 pixel) {
   return vec4(vec3(s, 0.0) + t * direction, slope >= 0.0 ? 1.0 : -1.0);
 }
 
-vec4 base_color(MaterialParams material, vec2 uv, vec4 color) {
-  vec4 result = material.base_color * color;
 #ifdef TEXTURED
-  vec3 uv1 = vec3(uv, 1.0);
-  vec2 place = vec2(dot(material.uv_transform_0.xyz, uv1), dot(material.uv_transform_1.xyz, uv1));
-  result *= texture(base_color_texture, vec3(place, material.uv_transform_0.w));
+in vec2 uv;
+flat in float texture_layer;
 #endif
-  return result;
+
+// Texel of the base colour, white without a picture. Called before anything is discarded: its neighbours' values choose the level.
+vec4 texel() {
+#ifdef TEXTURED
+  return texture(base_color_texture, vec3(uv, texture_layer));
+#else
+  return vec4(1.0);
+#endif
 }

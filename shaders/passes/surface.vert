@@ -5,10 +5,12 @@
 #include "shared/module_params.glsl"
 #include "shared/frame_params.glsl"
 #include "shared/draw_record.glsl"
+#include "shared/material_params.glsl"
 #include "lib/optics.glsl"
 #include "lib/image_map.glsl"
 
 layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
+layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialParams materials[]; };
 layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
 
 layout(location = 0) in vec3 p_in_physical;
@@ -24,7 +26,10 @@ out vec3 normal;
 out vec4 color;
 #endif
 #ifdef TEXTURED
+// The transform and the layer come from here, not from the fragment's material: a picture's level is chosen by differences between
+// neighbouring pixels, and those outside the triangle may read nothing from buffers.
 out vec2 uv;
+flat out float texture_layer;
 #endif
 
 // Depth is scale * (front - z) / w: it grows from 0 at the front limit, and along every pixel's line it orders as z does,
@@ -40,7 +45,9 @@ void main() {
   color = color_in;
 #endif
 #ifdef TEXTURED
-  uv = uv_in;
+  MaterialParams material = materials[record.z];
+  uv = vec2(dot(material.uv_transform_0.xyz, vec3(uv_in, 1.0)), dot(material.uv_transform_1.xyz, vec3(uv_in, 1.0)));
+  texture_layer = material.uv_transform_0.w;
 #endif
   // A vertex without a pixel is put out of sight together with its triangle: behind everything, w > 0.
   if (pixel.z == 0.0 || !(s.z > 0.0)) {

@@ -12,21 +12,17 @@ flat in uvec4 draw;
 #ifdef ATTRIBUTES
 in vec4 color;
 #endif
-#ifdef TEXTURED
-in vec2 uv;
-#endif
 
 void main() {
+#ifdef ALPHA_MASK
+  float alpha = texel().a;
+#endif
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
   MaterialParams material = materials[draw.z];
   vec4 p = meet(m, plane, gl_FragCoord.xy);
   if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
 #ifdef ALPHA_MASK
-  vec2 place = vec2(0.0);
-#ifdef TEXTURED
-  place = uv;
-#endif
-  if (base_color(material, place, color).a < material.flags.x) discard;
+  if (alpha * material.base_color.a * color.a < material.flags.x) discard;
 #endif
 }

@@ -14,9 +14,6 @@ layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams fram
 flat in uvec4 draw;
 in vec3 normal;
 in vec4 color;
-#ifdef TEXTURED
-in vec2 uv;
-#endif
 
 layout(location = 0) out vec4 out_albedo;    // linear colour; alpha 1 lit, 0.5 unlit, 0 no surface
 #ifdef WRITE_POSITION
@@ -27,16 +24,13 @@ layout(location = 2) out vec4 out_normal;    // world, unit, on the side that is
 #endif
 
 void main() {
+  vec4 base = texel();
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
   MaterialParams material = materials[draw.z];
   vec4 p = meet(m, plane, gl_FragCoord.xy);
   if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
-  vec2 place = vec2(0.0);
-#ifdef TEXTURED
-  place = uv;
-#endif
-  vec4 base = base_color(material, place, color);
+  base *= material.base_color * color;
 #ifdef ALPHA_MASK
   if (base.a < material.flags.x) discard;
 #endif
