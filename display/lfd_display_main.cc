@@ -100,7 +100,7 @@ int main_of_display(int argc, char** argv) {
                      ->capture_default_str();
   app.add_option("--out", out, "Write every shown frame to this folder: frame-0000/module-000.color.png, ...");
   app.add_option("--name", daemon.name, "Name of this display")->capture_default_str();
-  app.add_option("--log", level, "trace, debug, info, warn, error or off")->capture_default_str();
+  app.add_option("--log-level", level, "trace, debug, info, warn, error or off")->capture_default_str();
   add_view(app, view_options);
   add_sheet(app, sheet_options);
   try {
