@@ -98,7 +98,7 @@ Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals
       write_file(options.cluster.images / "report.json", report_json(cluster.deployment(), status.scene(), frames)));
   proto::Request quit;
   quit.mutable_quit();
-  LFD_TRY(const proto::Reply goodbye, client.ask(quit, kAnswerPatience));
+  LFD_TRY_STATUS(client.send(quit, kAnswerPatience));  // the processes' ends are the answer
   LFD_TRY_STATUS(cluster.finish(kWriteOut));
   std::cerr << time_table(frames);
   return check_images(options, cluster, frames);
