@@ -53,13 +53,12 @@ Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deploy
   return wanted;
 }
 
-// What a process that ended had to say: its last error, else its last line.
+// What a process had to say about its end: its last error.
 std::string last_words(const Process& process) {
   const std::vector<std::string> lines = process.lines();
   const auto error =
       std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with("error: "); });
-  if (error != lines.rend()) return error->substr(std::string_view("error: ").size());
-  return lines.empty() ? "it said nothing" : lines.back();
+  return error != lines.rend() ? error->substr(std::string_view("error: ").size()) : "it said no more";
 }
 
 }  // namespace
@@ -92,6 +91,7 @@ Result<Cluster> Cluster::start(const ClusterOptions& options) {
   if (!options.images.empty() || cluster.deployment_.message.sink() == proto::Deployment::DISPLAY) {
     std::vector<std::string> command{program("lfd-display"), "--controller", cluster.endpoint_};
     add_option(command, "--out", options.images);
+    add_option(command, "--log-level", options.log_level);
     LFD_TRY_STATUS(cluster.add(options, "display", std::move(command)));
   }
   for (const NodeShare& node : cluster.deployment_.nodes) {

@@ -85,7 +85,7 @@ void Membership::holds(const std::string& address, const std::string& state_hash
   for (auto& [name, peer] : peers_) {
     if (peer.address != address || !peer.lives()) continue;
     peer.state_hash = state_hash;
-    if (known) peer.phase = Phase::kReady;
+    if (known || peer.role == proto::DISPLAY) peer.phase = Phase::kReady;
   }
 }
 

@@ -59,7 +59,8 @@ class Membership {
   enum class Heard { kStranger, kMember, kBack };
   Heard heard(const std::string& address, Clock::time_point now);
 
-  // The peer at `address` holds the state of this hash (empty: none yet). `known`: the hash is one of ours.
+  // The peer at `address` holds the state of this hash (empty: none yet). `known`: the hash is one of ours. A node is
+  // ready by that; a display needs no state.
   void holds(const std::string& address, const std::string& state_hash, bool known);
 
   // The peer at `address` goes of its own accord; its name, if it lived.

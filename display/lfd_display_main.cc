@@ -100,7 +100,7 @@ int main_of_display(int argc, char** argv) {
                      ->capture_default_str();
   app.add_option("--out", out, "Write every shown frame to this folder: frame-0000/module-000.color.png, ...");
   app.add_option("--name", daemon.name, "Name of this display")->capture_default_str();
-  app.add_option("--log", level, "trace, debug, info, warn, error or off")->capture_default_str();
+  app.add_option("--log-level,--log", level, "trace, debug, info, warn, error or off")->capture_default_str();
   add_view(app, view_options);
   add_sheet(app, sheet_options);
   try {
@@ -109,7 +109,7 @@ int main_of_display(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kWrongUse;
   }
   if (app.get_subcommands().empty() && deployment.empty() && daemon.controller.empty()) {
-    std::fprintf(stderr, "lfd-display: where is the controller? Say --controller, or give a deployment file\n");
+    std::fprintf(stderr, "error: where is the controller? Say --controller, or give a deployment file\n");
     return kWrongUse;
   }
   start_log(daemon.name, level);
@@ -118,7 +118,7 @@ int main_of_display(int argc, char** argv) {
                         : app.got_subcommand("sheet") ? sheet(sheet_options)
                                                       : run(daemon, deployment, images->count() > 0);
   if (status) return 0;
-  std::fprintf(stderr, "lfd-display: %s\n", status.error().message().c_str());
+  std::fprintf(stderr, "error: %s\n", status.error().message().c_str());
   return kFailed;
 }
 

@@ -91,15 +91,16 @@ Status Renderer::draw(const FrameOptions& options) {
   slot.roi = roi_;
   slot.ao = settings_.ao;
   slot.geometry_ms = std::exchange(geometry_ms_, 0);
-  slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers && !last_images_.empty() &&
-                under_way_ == 0;
+  // Frames are collected in order: by then the images of the one that this repeats are there.
+  slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;
   if (!slot.reused) {
     slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_, options.buffers});
     const CommandList commands = make_commands(slot.plan, geometry_.items, options.time_modules);
     LFD_TRY_STATUS(passes_.submit(slot.plan, commands, {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
                                   targets_, slot.timers));
     slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image);
-    drawn_buffers_ = options.buffers;
+    drawn_buffers_.reset();
+    if (options.read_back) drawn_buffers_ = options.buffers;
     state_changed_ = false;
   }
   slot.submit_ms = milliseconds(Clock::now() - start);

@@ -14,7 +14,7 @@ namespace lfd::controller {
 namespace {
 
 constexpr int kHeartbeatsOfPatience = 6;
-constexpr auto kLastWords = std::chrono::milliseconds(300);
+constexpr auto kLastWords = std::chrono::seconds(1);
 
 Membership::Rules rules_of(const Deployment& deployment) {
   Membership::Rules rules{.version = kVersion,

@@ -33,7 +33,7 @@ void Daemon::take_heartbeat(const wire::Message& message) {
   const std::string& hash = message.envelope.heartbeat().state_hash();
   const Phase before = peer->phase;
   members_.holds(message.peer, hash, stage_.store().remembers(hash));
-  if (peer->phase != before) log::info("\"{}\" holds the state", peer->name);
+  if (peer->phase != before) log::info("\"{}\" is ready", peer->name);
 }
 
 void Daemon::welcome(const Peer& peer, Clock::time_point now) {

@@ -85,7 +85,7 @@ void Daemon::join_or_beat(Clock::time_point now) {
   next_words_ = now + (welcome_ ? heartbeat_ : Clock::duration(kJoinPause));
   proto::Envelope words;
   if (welcome_) {
-    words.mutable_heartbeat()->set_state_hash(ready_hash_);
+    words.mutable_heartbeat()->set_state_hash(hears_state_ ? ready_hash_ : "");
   } else {
     auto* join = words.mutable_join();
     join->set_role(proto::NODE);
@@ -123,6 +123,7 @@ Status Daemon::welcome(const proto::Welcome& message) {
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
   may_drop_ = message.may_drop();
   sink_ = static_cast<proto::Deployment::Sink>(message.sink());
+  hears_state_ = false;
   begun_.clear();
   waiting_.clear();
   hashes_.clear();
@@ -162,6 +163,7 @@ void Daemon::hear_state() {
         break;
       case proto::Envelope::kPulse:
         follower_.pulse_came(envelope.pulse().sequence());
+        hears_state_ = true;
         break;
       case proto::Envelope::kQuit:
         log::info("the controller says quit: {}", envelope.quit().reason());

@@ -82,6 +82,7 @@ class Daemon {
   std::deque<FrameEvent> waiting_;               // frames whose images wait for the outbox
 
   bool welcome_ = false, may_drop_ = false, ended_ = false;
+  bool hears_state_ = false;  // a pulse has come: no begin will be missed, so the controller may count on this node
   proto::Deployment::Sink sink_ = proto::Deployment::DISPLAY;
   Clock::duration heartbeat_ = std::chrono::milliseconds(500);
   Clock::time_point next_words_{}, last_heard_{}, next_hello_{}, next_snapshot_request_{};

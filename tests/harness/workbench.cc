@@ -34,13 +34,18 @@ DisplayCalibration small_display() {
   return display;
 }
 
-int parent_of(int process) {
+// State and parent as /proc/ID/stat has them: "S 1 ..."; empty where there is no such process.
+std::string stat_of(int process) {
   std::ifstream stat(fmt::format("/proc/{}/stat", process));
   const std::string text((std::istreambuf_iterator<char>(stat)), {});
   const std::size_t name_end = text.rfind(')');  // the name may contain anything
-  if (name_end == std::string::npos || name_end + 4 >= text.size()) return 0;
+  return name_end == std::string::npos || name_end + 4 >= text.size() ? "" : text.substr(name_end + 2);
+}
+
+int parent_of(int process) {
+  const std::string stat = stat_of(process);
   int parent = 0;
-  std::from_chars(text.data() + name_end + 4, text.data() + text.size(), parent);
+  if (!stat.empty()) std::from_chars(stat.data() + 2, stat.data() + stat.size(), parent);
   return parent;
 }
 
@@ -103,9 +108,15 @@ std::vector<int> descendants_named(const std::string& name) {
     std::ifstream comm(fmt::format("/proc/{}/comm", process));
     std::string command;
     std::getline(comm, command);
-    if (ancestor == ::getpid() && process != ::getpid() && command.starts_with(name)) found.push_back(process);
+    if (runs(process) && ancestor == ::getpid() && process != ::getpid() && command.starts_with(name))
+      found.push_back(process);
   }
   return found;
+}
+
+bool runs(int process) {
+  const std::string stat = stat_of(process);
+  return !stat.empty() && stat.front() != 'Z';
 }
 
 int free_port() {

@@ -44,6 +44,9 @@ RunningController start_controller(const std::filesystem::path& deployment, std:
 // Ids of the living processes whose program's name starts with `name` and that descend from this process.
 std::vector<int> descendants_named(const std::string& name);
 
+// Whether a process runs: one that has ended, but that nobody has waited for yet, does not.
+bool runs(int process);
+
 // A port of the loopback interface that was free a moment ago.
 int free_port();
 

@@ -69,6 +69,8 @@ TEST(Membership, TakesOneDisplayAtATime) {
   Membership members = two_nodes();
   ASSERT_TRUE(members.join(join_of("screen", 1, proto::DISPLAY), "A"));
   EXPECT_FALSE(members.join(join_of("other screen", 2, proto::DISPLAY), "B"));
+  members.holds("A", "", false);
+  EXPECT_EQ(members.display()->phase, Phase::kReady);
   ASSERT_EQ(members.leave("A"), "screen");
   EXPECT_EQ(members.display(), nullptr);
   EXPECT_TRUE(members.join(join_of("other screen", 2, proto::DISPLAY), "B"));

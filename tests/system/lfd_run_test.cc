@@ -1,0 +1,183 @@
+// lfd: whole clusters of real processes, from their start to their last process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "cli/control_client.h"
+#include "tests/harness/workbench.h"
+
+namespace lfd::harness {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr auto kPatience = 60s;  // a software rasteriser starts slowly on a busy machine
+const std::string kQuick = "pacing { heartbeat_ms: 100 }";
+
+struct Running {
+  std::unique_ptr<Process> lfd;
+  std::string endpoint;
+};
+
+Running run_cluster(const std::filesystem::path& deployment) {
+  Running running{start_program("lfd", {"run", deployment}), ""};
+  const auto line = running.lfd->wait_for_line("running ", kPatience);
+  EXPECT_TRUE(line);
+  if (line) running.endpoint = line->substr(line->find("tcp://"));
+  return running;
+}
+
+Result<proto::Status> status_of(const Running& running) {
+  LFD_TRY(ControlClient client, ControlClient::connect(running.endpoint));
+  proto::Request request;
+  request.mutable_status();
+  LFD_TRY(const proto::Reply reply, client.ask(request, 5s));
+  return reply.status();
+}
+
+// Waits until all nodes take part and `frames` more frames have been swapped.
+testing::AssertionResult draws(const Running& running, std::uint64_t frames) {
+  const auto deadline = Clock::now() + kPatience;
+  std::optional<std::uint64_t> first;
+  while (Clock::now() < deadline) {
+    const auto status = status_of(running);
+    if (!status) return testing::AssertionFailure() << status.error().message();
+    const bool whole = status->frame() > 0 && status->stale_modules() == 0;
+    if (whole && !first) first = status->frame();
+    if (first && status->frame() >= *first + frames) return testing::AssertionSuccess();
+    running.lfd->wait(50ms);
+  }
+  return testing::AssertionFailure() << "no frame in time";
+}
+
+// Processes need a moment to be gone from the process table after they were killed.
+bool none_left() {
+  const auto deadline = Clock::now() + 2s;
+  while (!descendants_named("lfd").empty() && Clock::now() < deadline) ::usleep(10'000);
+  return descendants_named("lfd").empty();
+}
+
+TEST(LfdRun, EndsEverythingWithinTwoSecondsOfASignal) {
+  const Workbench bench;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Running running = run_cluster(bench.deployment(kQuick));
+    ASSERT_TRUE(draws(running, 2));
+    EXPECT_THAT(descendants_named("lfd"), SizeIs(5));  // lfd, controller, display, two nodes
+    running.lfd->signal(signal);
+    const auto exit = running.lfd->wait(2s);
+    ASSERT_TRUE(exit);
+    EXPECT_TRUE(exit->succeeded()) << exit->text();
+    EXPECT_THAT(descendants_named("lfd"), IsEmpty());
+  }
+}
+
+TEST(LfdRun, LeavesNoOrphanWhenItIsKilled) {
+  const Workbench bench;
+  const Running running = run_cluster(bench.deployment(kQuick));
+  const std::vector<int> processes = descendants_named("lfd");
+  EXPECT_THAT(processes, SizeIs(5));
+  running.lfd->signal(SIGKILL);
+  ASSERT_TRUE(running.lfd->wait(2s));
+  const auto deadline = Clock::now() + 2s;
+  while (std::ranges::any_of(processes, runs) && Clock::now() < deadline) ::usleep(10'000);
+  EXPECT_TRUE(std::ranges::none_of(processes, runs));
+}
+
+TEST(LfdRun, SaysWhichChildDiedAndEndsTheOthers) {
+  const Workbench bench;
+  const Running running = run_cluster(bench.deployment(kQuick));
+  ASSERT_TRUE(draws(running, 1));
+  const std::vector<int> nodes = descendants_named("lfd-rendernode");
+  ASSERT_THAT(nodes, SizeIs(2));
+  ::kill(nodes.front(), SIGKILL);
+  const auto exit = running.lfd->wait(5s);
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 1);
+  const auto line = running.lfd->wait_for_line("error: ", kPatience);
+  ASSERT_TRUE(line);
+  EXPECT_THAT(*line, HasSubstr("signal 9"));
+  EXPECT_TRUE(none_left());
+}
+
+TEST(LfdRun, RunsBesideAnother) {
+  const Workbench bench;
+  const Running first = run_cluster(bench.deployment(kQuick)), second = run_cluster(bench.deployment(kQuick));
+  EXPECT_NE(first.endpoint, second.endpoint);
+  EXPECT_TRUE(draws(first, 2));
+  EXPECT_TRUE(draws(second, 2));
+}
+
+TEST(LfdRun, ForcedOntoTakenPortsItNamesThemAndTheFirstLosesNothing) {
+  const Workbench bench;
+  const std::string endpoint = "tcp://127.0.0.1:" + std::to_string(free_port());
+  const auto deployment = bench.deployment(kQuick + " addresses { control: \"" + endpoint + "\" }");
+  const Running first = run_cluster(deployment);
+  ASSERT_TRUE(draws(first, 2));
+  const auto second = start_program("lfd", {"run", deployment});
+  const auto exit = second->wait(2s);
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 1);
+  const auto line = second->wait_for_line("error: controller: ", kPatience);
+  ASSERT_TRUE(line);
+  EXPECT_THAT(*line, HasSubstr(endpoint));
+  EXPECT_THAT(*line, HasSubstr("(lfd-controller)"));
+  EXPECT_TRUE(draws(first, 2));
+  const auto status = status_of(first);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->late_frames(), 0u);
+}
+
+TEST(LfdRender, WritesImagesAndAReport) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  const auto lfd = start_program("lfd", {"render", bench.deployment(kQuick), "--frames", "2", "--buffers",
+                                         "color,position,normal,ao,depth", "--out", out, "--module", "1-2"});
+  const auto exit = lfd->wait(kPatience);
+  ASSERT_TRUE(exit);
+  ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
+  for (const char* name : {"color.png", "position.exr", "normal.exr", "ao.exr", "depth.exr"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / "frame-0001" / ("module-001." + std::string(name)))) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(out / "frame-0000" / "module-000.color.png"));
+  const auto report = nlohmann::json::parse(*read_file(out / "report.json"));
+  ASSERT_EQ(report["frames"].size(), 2u);
+  const auto& frame = report["frames"][0];
+  EXPECT_EQ(frame["physical_from_world"].size(), 16u);
+  EXPECT_EQ(frame["nodes"].size(), 2u);
+  for (const auto& node : frame["nodes"]) EXPECT_EQ(node["state_hash"], frame["state_hash"]);
+  EXPECT_TRUE(none_left());
+}
+
+TEST(LfdView, WritesWhatAViewerSees) {
+  const Workbench bench;
+  const auto picture = bench.folder() / "view.png";
+  const auto lfd =
+      start_program("lfd", {"view", bench.deployment(kQuick), "--eye", "-0.1,0,2", "--out", picture, "--no-ao"});
+  const auto exit = lfd->wait(kPatience);
+  ASSERT_TRUE(exit);
+  ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
+  EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+TEST(Lfd, ExitsWithTwoOnWrongUse) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"rendr"},
+                                                    {"render"},
+                                                    {"run", "--modul", "3"},
+                                                    {"render", "x", "--out", "y", "--buffers", "colour"}}) {
+    const auto exit = start_program("lfd", arguments)->wait(kPatience);
+    ASSERT_TRUE(exit);
+    EXPECT_EQ(exit->code, 2) << arguments.front();
+  }
+}
+
+}  // namespace
+}  // namespace lfd::harness

@@ -1,0 +1,76 @@
+// What `lfd` writes for people and for programs: ranges of modules, buffers, image names, the report.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/lfd_commands.h"
+#include "cli/report.h"
+#include "cli/status_table.h"
+
+namespace lfd {
+namespace {
+
+using testing::HasSubstr;
+
+std::string ranges(std::initializer_list<std::uint32_t> numbers) {
+  return ranges_text({numbers.begin(), numbers.end()});
+}
+
+TEST(StatusTable, WritesModulesAsRanges) {
+  EXPECT_EQ(ranges({}), "");
+  EXPECT_EQ(ranges({7}), "7");
+  EXPECT_EQ(ranges({0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
+}
+
+TEST(Buffers, AreBitsInTheOrderOfTheirKinds) {
+  EXPECT_EQ(*parse_buffers({}), 0u);
+  EXPECT_EQ(*parse_buffers({"color", "depth"}), 1u << proto::COLOR | 1u << proto::DEPTH);
+  EXPECT_EQ(*parse_buffers({"position", "normal", "ao"}),
+            1u << proto::POSITION | 1u << proto::NORMAL | 1u << proto::AO);
+  EXPECT_THAT(parse_buffers({"colour"}).error().message(), HasSubstr("did you mean color?"));
+}
+
+TEST(ImageNames, HaveThreeDigitsAndTheBuffersName) {
+  EXPECT_EQ(image_name(0, proto::COLOR), "module-000.color.png");
+  EXPECT_EQ(image_name(17, proto::POSITION), "module-017.position.exr");
+  EXPECT_EQ(frame_folder("out", 12), "out/frame-0012");
+}
+
+TEST(Report, GivesNumbersBackExactly) {
+  proto::FrameReport frame;
+  for (int i = 0; i < 16; ++i) frame.add_physical_from_world(1.0 / (3 + i));
+  frame.mutable_position_origin()->set_y(0.1 + 0.2);
+  frame.add_stale_module(4);
+  proto::NodeReport& node = *frame.add_node();
+  node.set_node("left");
+  node.add_pass()->set_pass("ao");
+  node.add_left_out()->set_what("module");
+  const auto json = nlohmann::json::parse(report_json({}, "scene", {frame}));
+  const auto& read = json["frames"][0];
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(read["physical_from_world"][i].get<double>(), 1.0 / static_cast<double>(3 + i));
+  }
+  EXPECT_EQ(read["position_origin"][1].get<double>(), 0.1 + 0.2);
+  EXPECT_EQ(read["stale_modules"][0], 4);
+  EXPECT_EQ(read["nodes"][0]["passes"][0]["pass"], "ao");
+  EXPECT_EQ(read["nodes"][0]["left_out"][0]["what"], "module");
+}
+
+TEST(Report, SurvivesTextThatIsNoUtf8) {
+  proto::FrameReport frame;
+  EXPECT_NO_THROW(nlohmann::json::parse(report_json({}, "caf\xe9", {frame})));
+}
+
+TEST(TimeTable, IsTheMeanOfTheFrames) {
+  std::vector<proto::FrameReport> frames(2);
+  for (double ms : {1.0, 3.0}) {
+    proto::PassTime& pass = *frames[ms > 2 ? 1 : 0].add_node()->add_pass();
+    pass.set_pass("gbuffer");
+    pass.set_gpu_ms(ms);
+  }
+  EXPECT_THAT(time_table(frames), HasSubstr("2.000"));
+}
+
+}  // namespace
+}  // namespace lfd
