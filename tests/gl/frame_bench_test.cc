@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/log.h"
 #include "bench/frame/print.h"
 #include "tests/support/rendering.h"
 
