@@ -11,6 +11,7 @@ void add_run_command(CLI::App& app, int& exit_code, StopSignals& signals);
 void add_render_command(CLI::App& app, int& exit_code, StopSignals& signals);
 void add_view_command(CLI::App& app, int& exit_code, StopSignals& signals);
 void add_ctl_command(CLI::App& app, int& exit_code);
+void add_bench_command(CLI::App& app, int& exit_code);
 
 // DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --module, --log-level.
 void add_cluster_options(CLI::App& command, ClusterOptions& options);
