@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/log.h"
-#include "display/srgb.h"
+#include "proto/pictures/srgb.h"
 
 namespace lfd::display {
 namespace {

@@ -1,15 +1,14 @@
 // Sockets, signals and clock around FrameAssembly and PictureWriter; they decide, this does.
 #include "display/daemon.h"
 
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <map>
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "base/signals.h"
 #include "base/version.h"
 #include "display/frame_assembly.h"
 #include "display/picture_writer.h"
@@ -32,32 +31,6 @@ std::span<const std::uint32_t> span_of(const google::protobuf::RepeatedField<std
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
 }
 
-// SIGTERM and SIGINT as something to wait for.
-class Signals {
- public:
-  Signals() {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGINT);
-    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
-    descriptor_ = ::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
-    LFD_CHECK(descriptor_ >= 0, "no file descriptor is left for a signalfd");
-  }
-  ~Signals() { ::close(descriptor_); }
-  Signals(const Signals&) = delete;
-  Signals& operator=(const Signals&) = delete;
-
-  int descriptor() const { return descriptor_; }
-  bool arrived() const {
-    signalfd_siginfo info;
-    return ::read(descriptor_, &info, sizeof(info)) == static_cast<ssize_t>(sizeof(info));
-  }
-
- private:
-  int descriptor_ = -1;
-};
-
 class Daemon {
  public:
   Daemon(const DaemonOptions& options, wire::Context& context, wire::Socket images, wire::Socket control)
@@ -65,10 +38,10 @@ class Daemon {
     if (options.out) writer_.emplace(*options.out);
   }
 
-  Status run(const Signals& signals);
+  Status run(StopSignals& signals);
 
  private:
-  void wait_for_something(const Signals& signals);
+  void wait_for_something(StopSignals& signals);
   void join_or_beat(Clock::time_point now);
   Status hear_control();
   Status welcome(const proto::Welcome& message);
@@ -86,7 +59,6 @@ class Daemon {
   std::optional<wire::Socket> state_;
   std::optional<PictureWriter> writer_;
   FrameAssembly assembly_;
-  ImageSize image_size_;
   std::map<std::string, std::string> peer_of_node_;
   bool welcome_ = false, ended_ = false;
   Clock::duration heartbeat_ = 500ms;
@@ -94,11 +66,11 @@ class Daemon {
   std::uint64_t refused_images_ = 0;
 };
 
-Status Daemon::run(const Signals& signals) {
+Status Daemon::run(StopSignals& signals) {
   log::info("images at {}, controller at {}", images_.endpoint(), control_.endpoint());
   while (!ended_) {
     wait_for_something(signals);
-    if (signals.arrived()) break;
+    if (signals.take()) break;
     LFD_TRY_STATUS(hear_control());
     hear_state();
     hear_images();
@@ -115,7 +87,7 @@ Status Daemon::run(const Signals& signals) {
   return {};
 }
 
-void Daemon::wait_for_something(const Signals& signals) {
+void Daemon::wait_for_something(StopSignals& signals) {
   std::vector<const wire::Socket*> sockets = {&images_, &control_};
   std::vector<int> descriptors = {signals.descriptor()};
   if (state_) sockets.push_back(&*state_);
@@ -171,7 +143,6 @@ Status Daemon::welcome(const proto::Welcome& message) {
   if (!state) return state.error().within("the controller's state channel");
   state_ = std::move(*state);
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
-  image_size_ = display->image;
   assembly_.configure(static_cast<int>(display->modules.size()), display->image, span_of(message.modules()));
   welcome_ = true;
   next_words_ = Clock::now();
@@ -227,7 +198,7 @@ void Daemon::show() {
     auto frame = assembly_.next_frame(Clock::now());
     if (!frame) break;
     if (writer_) {
-      writer_->write(std::move(*frame), image_size_);
+      writer_->write(std::move(*frame));
     } else {
       say_shown(frame->frame, frame->fresh_modules);
     }
@@ -267,7 +238,7 @@ void Daemon::warn_of_image(const Error& error) {
 }  // namespace
 
 Status run_daemon(const DaemonOptions& options) {
-  const Signals signals;
+  StopSignals signals;
   wire::Context context;
   LFD_TRY(wire::Socket images, wire::bind_router(context, options.images, wire::kImages));
   LFD_TRY(wire::Socket control, wire::connect_dealer(context, options.controller));

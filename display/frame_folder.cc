@@ -1,4 +1,4 @@
-// Names of image files, and the colour images behind them.
+// The colour images of a folder.
 #include "display/frame_folder.h"
 
 #include <charconv>
@@ -12,21 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* ending(proto::BufferKind buffer) {
-  switch (buffer) {
-    case proto::COLOR:
-      return "color.png";
-    case proto::POSITION:
-      return "position.exr";
-    case proto::NORMAL:
-      return "normal.exr";
-    case proto::AO:
-      return "ao.exr";
-    default:
-      return "depth.exr";
-  }
-}
-
 // The K of module-K.color.png.
 std::optional<int> module_of(const std::string& name) {
   constexpr std::string_view kBefore = "module-", kAfter = ".color.png";
@@ -39,10 +24,6 @@ std::optional<int> module_of(const std::string& name) {
 }
 
 }  // namespace
-
-fs::path image_path(const fs::path& folder, std::uint64_t frame, std::uint32_t module, proto::BufferKind buffer) {
-  return folder / fmt::format("frame-{:04}", frame) / fmt::format("module-{:03}.{}", module, ending(buffer));
-}
 
 Result<std::vector<std::optional<Picture8>>> read_color_images(const fs::path& frame_folder, int modules) {
   std::error_code failure;

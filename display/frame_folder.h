@@ -1,4 +1,4 @@
-// Written frames: where each image of a frame lies, and reading the colour images back.
+// Written frames: reading their colour images back.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,8 @@
 
 #include "base/result.h"
 #include "proto/pictures/picture.h"
-#include "proto/wire.pb.h"
 
 namespace lfd::display {
-
-// FOLDER/frame-0000/module-000.color.png; position, normal, ao and depth likewise, as .exr.
-std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
-                                 proto::BufferKind buffer);
 
 // The colour images of one frame's folder by module number; as many as `modules`, or up to the last one there where it
 // is 0. Modules without a file are absent. Errors: not a folder, no colour image in it, a file that cannot be read.

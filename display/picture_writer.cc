@@ -2,14 +2,10 @@
 #include "display/picture_writer.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/log.h"
 #include "calibration/display.h"
-#include "display/frame_folder.h"
-#include "display/srgb.h"
-#include "proto/pictures/exr.h"
-#include "proto/pictures/png.h"
+#include "proto/frame_files.h"
 
 namespace lfd::display {
 namespace {
@@ -17,32 +13,7 @@ namespace {
 constexpr unsigned kMaxWorkers = 8;
 constexpr auto kPatience = std::chrono::seconds(1);  // of a waiting worker, before it looks again
 
-Picture8 color_picture(const ReceivedImage& image, ImageSize size) {
-  Picture8 picture = black_picture(size.width, size.height);
-  if (!image.what.empty()) {
-    std::memcpy(picture.rgba.data(), image.pixels.bytes().data(), std::min(picture.rgba.size(), image.pixels.size()));
-    return picture;
-  }
-  const auto& background = image.what.background();
-  const std::uint8_t pixel[4] = {srgb8_from_linear(background.r()), srgb8_from_linear(background.g()),
-                                 srgb8_from_linear(background.b()), 255};
-  for (std::size_t at = 0; at < picture.rgba.size(); ++at) picture.rgba[at] = pixel[at % 4];
-  return picture;
-}
-
-PictureF float_picture(const ReceivedImage& image, ImageSize size) {
-  PictureF picture{size.width, size.height, std::vector<float>(std::size_t{4} * size.width * size.height)};
-  const std::size_t bytes = std::min(picture.rgba.size() * sizeof(float), image.pixels.size());
-  if (bytes > 0) std::memcpy(picture.rgba.data(), image.pixels.bytes().data(), bytes);
-  return picture;
-}
-
 }  // namespace
-
-Status write_image(const std::filesystem::path& path, const ReceivedImage& image, ImageSize size) {
-  if (image.what.buffer() == proto::COLOR) return write_png(path, color_picture(image, size), PngChannels::kRgb);
-  return write_exr(path, float_picture(image, size));
-}
 
 PictureWriter::PictureWriter(std::filesystem::path folder) : folder_(std::move(folder)), tasks_(kFrames * kMaxModules) {
   const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1u, kMaxWorkers);
@@ -54,11 +25,11 @@ PictureWriter::~PictureWriter() {
   tasks_.close();
 }
 
-void PictureWriter::write(ShownFrame frame, ImageSize size) {
+void PictureWriter::write(ShownFrame frame) {
   LFD_CHECK(accepts(), "more frames than fit");
   const std::size_t modules = frame.modules.size();
   LFD_CHECK(modules >= 1 && modules <= kMaxModules, "a frame of no display");
-  auto job = std::make_shared<Job>(std::move(frame), size);
+  auto job = std::make_shared<Job>(std::move(frame));
   job->modules_left = modules;
   ++frames_in_hand_;
   for (std::uint32_t module = 0; module < modules; ++module) {
@@ -88,7 +59,7 @@ void PictureWriter::write_module(const Job& job, std::uint32_t module) {
   for (const auto& image : job.frame.modules[module].image) {
     if (image == nullptr || ends_) continue;
     const auto path = image_path(folder_, job.frame.frame, module, image->what.buffer());
-    if (const Status status = write_image(path, *image, job.size); !status)
+    if (const Status status = write_image_file(path, image->what, image->pixels.text()); !status)
       note_failure(path, status.error().message());
   }
 }

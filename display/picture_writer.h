@@ -14,10 +14,6 @@
 
 namespace lfd::display {
 
-// An empty image (what.empty()) as a file has all background: colours that of the image, everything else 0 with alpha
-// 0.
-Status write_image(const std::filesystem::path& path, const ReceivedImage& image, ImageSize size);
-
 struct Written {
   std::uint64_t frame = 0;
   int fresh_modules = 0;
@@ -37,7 +33,7 @@ class PictureWriter {
 
   bool accepts() const { return frames_in_hand_ < kFrames; }
   // Only while it accepts.
-  void write(ShownFrame frame, ImageSize size);
+  void write(ShownFrame frame);
   // The next frame that has been written.
   std::optional<Written> take_written();
   // Readable while take_written() has something.
@@ -47,9 +43,8 @@ class PictureWriter {
 
  private:
   struct Job {
-    Job(ShownFrame&& f, ImageSize s) : frame(std::move(f)), size(s) {}
+    explicit Job(ShownFrame&& f) : frame(std::move(f)) {}
     const ShownFrame frame;
-    const ImageSize size;
     std::atomic<std::size_t> modules_left = 0;
   };
   struct Task {

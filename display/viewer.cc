@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/log.h"
-#include "display/srgb.h"
+#include "proto/pictures/srgb.h"
 
 namespace lfd::display {
 namespace {

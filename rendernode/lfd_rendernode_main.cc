@@ -29,6 +29,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--controller", a.options.controller, "Control endpoint of the controller; default: the deployment's");
   app.add_option("--display", a.display, "Calibration file used instead of the deployment's");
   app.add_option("--gpu", a.options.gpu, "Number of the GPU (--list-gpus); default: the deployment's, else the first that works");
+  app.add_option("--out", a.options.out, "Folder for images where the deployment's sink is FILES; default: the deployment's");
   app.add_flag("--list-gpus", a.list_gpus, "List the GPUs that EGL offers, and end");
   app.add_option("--log-level", a.log_level, "trace, debug, info, warn, error or off")->capture_default_str();
 }
@@ -55,6 +56,10 @@ Status complete(Arguments& a) {
   if (a.options.controller.empty()) a.options.controller = deployment.addresses.control;
   if (a.options.controller.ends_with(":*")) {
     return Error(fmt::format("{}: its control address has no fixed port; name the controller with --controller", a.deployment));
+  }
+  if (a.options.out.empty()) {
+    const std::string& files = deployment.message.files();
+    a.options.out = (deployment.folder / (files.empty() ? "frames" : files)).string();
   }
   a.options.calibration_hash = calibration_hash(deployment.display);
   return {};

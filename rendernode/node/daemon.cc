@@ -51,7 +51,7 @@ Status Daemon::run(StopSignals& signals) {
   leave.mutable_leave()->set_reason(reason);
   control_.linger(kLastWords);
   say(leave);
-  log::info("ends: {}; {} frames were not sent for want of credit", reason, dropped_frames_);
+  log::info("ends: {}; {} frames were dropped for a slow sink", reason, dropped_frames_);
   return {};
 }
 
@@ -124,6 +124,7 @@ Status Daemon::welcome(const proto::Welcome& message) {
   may_drop_ = message.may_drop();
   sink_ = static_cast<proto::Deployment::Sink>(message.sink());
   hears_state_ = false;
+  if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
   begun_.clear();
   waiting_.clear();
   hashes_.clear();

@@ -12,6 +12,7 @@
 #include "proto/deployment.pb.h"
 #include "proto/wire/socket.h"
 #include "rendernode/node/asset_gatherer.h"
+#include "rendernode/node/file_sink.h"
 #include "rendernode/node/image_outbox.h"
 #include "rendernode/node/render_thread.h"
 #include "rendernode/node/state_follower.h"
@@ -23,6 +24,7 @@ struct DaemonOptions {
   std::string controller;                      // control endpoint
   int gpu = -1;                                // of --list-gpus; -1: the first that works
   std::string calibration_hash;                // of the deployment's display, which the controller's must equal
+  std::string out;                             // folder of the sink `files`
 };
 
 class Daemon {
@@ -54,7 +56,7 @@ class Daemon {
   // daemon_frames.cc: frames and images
   void begin_frames();
   Status take_events();
-  void hand_on(FrameEvent& event);
+  bool handed_on(const FrameEvent& event);
   std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
   void say_ready(std::uint64_t frame, proto::NodeReport report);
   void hand_on_waiting();
@@ -79,6 +81,7 @@ class Daemon {
   std::deque<proto::BeginFrame> begun_;          // announced, not yet given to the render thread
   std::map<std::uint64_t, std::string> hashes_;  // of the state that each frame under way is drawn from
   ImageOutbox outbox_;
+  std::optional<FileSink> files_;
   std::deque<FrameEvent> waiting_;               // frames whose images wait for the outbox
 
   bool welcome_ = false, may_drop_ = false, ended_ = false;

@@ -1,6 +1,4 @@
 // Frames through the node: begin, drawn, ready, and the images on their way.
-#include <algorithm>
-
 #include "base/log.h"
 #include "rendernode/node/daemon.h"
 
@@ -49,27 +47,32 @@ Status Daemon::take_events() {
   return {};
 }
 
-// Without a deadline a frame is ready only once the images of the one before have gone: a slow display slows the show. With
-// one, its images are dropped: a slow display costs frames. Either way no more than two frames wait here.
+// Without a deadline a frame is ready only once the images of the one before have gone: a slow sink slows the show. With one, its
+// images are dropped: a slow sink costs frames. Either way no more than a few frames wait here.
 void Daemon::hand_on_waiting() {
   while (!waiting_.empty()) {
-    const bool to_display = sink_ == proto::Deployment::DISPLAY;
-    if (to_display && !may_drop_ && !outbox_.idle()) return;
-    hand_on(waiting_.front());
+    FrameEvent& event = waiting_.front();
+    if (!handed_on(event)) {
+      if (!may_drop_) return;
+      ++dropped_frames_;
+      event.result->report.add_warning("images dropped: the sink is too slow");
+    }
+    say_ready(event.frame, std::move(event.result->report));
     waiting_.pop_front();
   }
 }
 
-void Daemon::hand_on(FrameEvent& event) {
-  if (sink_ == proto::Deployment::DISPLAY) {
-    if (outbox_.idle()) {
+bool Daemon::handed_on(const FrameEvent& event) {
+  switch (sink_) {
+    case proto::Deployment::DISPLAY:
+      if (!outbox_.idle()) return false;
       outbox_.push(outgoing(event.frame, *event.result));
-    } else {
-      ++dropped_frames_;
-      event.result->report.add_warning("images dropped: the display gives no credit");
-    }
+      return true;
+    case proto::Deployment::FILES:
+      return files_->put(outgoing(event.frame, *event.result));
+    default:
+      return true;
   }
-  say_ready(event.frame, std::move(event.result->report));
 }
 
 std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResult& result) const {

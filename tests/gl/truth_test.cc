@@ -1,43 +1,31 @@
 // Truth: what modules show against each pixel's own line cast into the scene in double precision.
 #include <gtest/gtest.h>
 
-#include "bench/reference/silhouette.h"
-#include "bench/reference/truth.h"
-#include "tests/support/rendering.h"
+#include "base/file.h"
+#include "calibration/import/format.h"
+#include "calibration/make.h"
+#include "controller/scene/made/made_scenes.h"
+#include "tests/foreign_files.h"
+#include "tests/gl/truth_case.h"
 #include "tests/unit/reference_scenes.h"
 
 namespace lfd {
 namespace {
 
 using reference::SceneMaker;
-using testing_support::buffers;
-using testing_support::context;
-using testing_support::draw_once;
-using testing_support::find_image;
-using testing_support::state_of;
+using testing_support::TruthCase;
+using testing_support::expect_true;
+using testing_support::whole_scene;
 
-reference::Truth truth_of(const SceneData& data, const RegionOfInterest& roi, const DisplayCalibration& display,
-                          std::uint32_t module) {
-  Renderer renderer(context(), display, {module});
-  const auto result = draw_once(renderer, state_of(data, roi), data.assets, {buffers({proto::POSITION})});
-  const ModuleImage* image = find_image(result, module, proto::POSITION);
-  EXPECT_NE(image, nullptr);
-  const PictureF rendered{display.image.width, display.image.height, testing_support::floats_of(*image)};
-
-  auto scene = reference::world_scene(data, roi);
-  EXPECT_TRUE(scene);
-  const DepthLimits limits = depth_limits(display, {});
-  const reference::Intersector intersector(*scene);
-  const reference::ModuleView view{display, display.modules[module], {limits.front, limits.back}};
-  const auto hits = reference::cast_module(intersector, view);
-  return reference::compare(hits, reference::near_silhouette(intersector, view, hits), rendered, result.position_origin,
-                            roi.diagonal_m());
+DisplayCalibration made_display(const char* name) {
+  auto display = make_display(name);
+  LFD_CHECK(display, display.error().message());
+  return *std::move(display);
 }
 
-void expect_true(const reference::Truth& truth) {
-  EXPECT_TRUE(reference::broken_bounds(truth).empty()) << testing::PrintToString(reference::broken_bounds(truth));
-  printf("compared %zu median %.2e 99%% %.2e max %.2e mismatch %.4f%%\n", truth.compared, truth.median, truth.percent_99,
-         truth.max, 100 * truth.mismatch_share);
+SceneData data_of(Result<LoadedScene> scene) {
+  LFD_CHECK(scene, scene.error().message());
+  return std::move(scene->data);
 }
 
 SceneData sphere_before_wall() {
@@ -49,12 +37,62 @@ SceneData sphere_before_wall() {
   return maker.data();
 }
 
-TEST(Truth, SphereBeforeWallLinear) {
-  expect_true(truth_of(sphere_before_wall(), reference::same_spaces(), reference::one_module(Diffuser::kLinear, {512, 384}), 0));
+TEST(Truth, SphereBeforeWall) {
+  for (const auto diffuser : {Diffuser::kLinear, Diffuser::kConical}) {
+    const char* name = diffuser == Diffuser::kLinear ? "sphere, linear" : "sphere, conical";
+    expect_true({name, sphere_before_wall(), reference::one_module(diffuser, {512, 384}), {0}, reference::same_spaces()});
+  }
 }
 
-TEST(Truth, SphereBeforeWallConical) {
-  expect_true(truth_of(sphere_before_wall(), reference::same_spaces(), reference::one_module(Diffuser::kConical, {512, 384}), 0));
+// Displays: modules in the middle of the row and at its end.
+struct Shown {
+  const char* name;
+  DisplayCalibration display;
+  std::vector<std::uint32_t> modules;
+};
+
+Shown shown_on(const std::string& name) {
+  if (name == "linear") return {"crs4", made_display("crs4"), {36, 0}};
+  if (name == "conical") return {"c80-conical", made_display("c80-conical"), {79}};
+  return {"desk, perturbed", perturbed(made_display("desk"), 7), {3, 0}};
+}
+
+class TruthOnDisplays : public testing::TestWithParam<const char*> {
+ protected:
+  void expect_true_with(const std::string& scene_name, const SceneData& data) const {
+    const Shown shown = shown_on(GetParam());
+    expect_true({scene_name + " on " + shown.name, data, shown.display, shown.modules, whole_scene(data.scene, shown.display)});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Displays, TruthOnDisplays, testing::Values("linear", "conical", "perturbed"),
+                         [](const auto& display) { return std::string(display.param); });
+
+// Twelve triangles, the viewer's side open.
+TEST_P(TruthOnDisplays, Room) { expect_true_with("room", data_of(scene::make_scene("room", 1))); }
+
+TEST_P(TruthOnDisplays, RibbedShell) { expect_true_with("ribbed shell", data_of(scene::make_scene("ribbed-shell", 1))); }
+
+TEST_P(TruthOnDisplays, Armadillo) {
+  LFD_FOREIGN_FILE(path, "scenes/armadillo.glb");
+  expect_true_with("armadillo", data_of(load_scene(path)));
+}
+
+TEST_P(TruthOnDisplays, Sponza) {
+  LFD_FOREIGN_FILE(path, "scenes/sponza/Sponza.gltf");
+  expect_true_with("sponza", data_of(load_scene(path)));
+}
+
+// The region of interest is a part of the nave, seen along it: the building surrounds screen and viewer and crosses both limits in z.
+TEST_P(TruthOnDisplays, InsideSponza) {
+  LFD_FOREIGN_FILE(path, "scenes/sponza/Sponza.gltf");
+  const Shown shown = shown_on(GetParam());
+  const double aspect = shown.display.screen.width_m / shown.display.screen.height_m;
+  RegionOfInterest roi;
+  roi.world_centre = {0, 2.5, 0};
+  roi.world_size = {3 * aspect, 3, 3};
+  roi.world_orientation = glm::angleAxis(0.5 * M_PI, glm::dvec3(0, 1, 0));
+  roi.physical_size = shown.display.screen.height_m * glm::dvec3(aspect, 1, 1);
+  expect_true({std::string("inside sponza on ") + shown.name, data_of(load_scene(path)), shown.display, shown.modules, roi});
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "display/frame_folder.h"
+#include "proto/frame_files.h"
 #include "proto/calibration_file.h"
 #include "proto/pictures/exr.h"
 #include "proto/pictures/png.h"

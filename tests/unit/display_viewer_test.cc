@@ -8,7 +8,7 @@
 #include <random>
 
 #include "display/contact_sheet.h"
-#include "display/srgb.h"
+#include "proto/pictures/srgb.h"
 
 namespace lfd::display {
 namespace {

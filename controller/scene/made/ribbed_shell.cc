@@ -169,7 +169,7 @@ Status make_ribbed_shell(std::uint64_t seed, Extent, SceneBuilder& scene) {
 
   proto::Material shell = painted(scene, "nacre", painter(nacre, 400));
   shell.set_double_sided(true);  // one looks into the mouth
-  glm::dmat4 world_from_shell = glm::translate(glm::dmat4(1.0), {-0.02, 0.272, 0.0});
+  glm::dmat4 world_from_shell = glm::translate(glm::dmat4(1.0), {-0.02, 0.2535, 0.0});
   world_from_shell = glm::rotate(world_from_shell, -0.42, {0, 1, 0});
   world_from_shell = glm::rotate(world_from_shell, 0.12, {0, 0, 1});
   LFD_TRY_STATUS(add(scene, shell_mesh(), std::move(shell), world_from_shell));

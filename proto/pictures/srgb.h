@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace lfd::display {
+namespace lfd {
 
 inline double linear_from_srgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
@@ -29,4 +29,4 @@ inline const std::array<float, 256>& linear_from_srgb8() {
   return table;
 }
 
-}  // namespace lfd::display
+}  // namespace lfd

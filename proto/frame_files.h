@@ -1,0 +1,20 @@
+// Files of finished frames: what they are called and what is in them, whoever writes them.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "base/result.h"
+#include "proto/wire.pb.h"
+
+namespace lfd {
+
+// folder/frame-0000/module-000.color.png, .position.exr, .normal.exr, .ao.exr or .depth.exr.
+std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
+                                 proto::BufferKind buffer);
+
+// Writes one image as its header says: colour as PNG (RGB), everything else as EXR (R G B A, float32); an empty image is all
+// background, or all zero. `pixels`: rows from the top. Missing folders are made.
+Status write_image_file(const std::filesystem::path& path, const proto::Image& what, std::string_view pixels);
+
+}  // namespace lfd

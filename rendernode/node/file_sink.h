@@ -1,0 +1,34 @@
+// The sink `files`: a thread that writes the node's own images.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "proto/wire/mailbox.h"
+#include "rendernode/node/image_outbox.h"
+
+namespace lfd::node {
+
+class FileSink {
+ public:
+  explicit FileSink(std::filesystem::path folder) : folder_(std::move(folder)), worker_([this] { work(); }) {}
+  // What has been taken is still written.
+  ~FileSink();
+
+  // Takes a frame's images; false where two frames wait already.
+  bool put(std::vector<OutgoingImage> images) { return frames_.put(std::move(images)); }
+
+ private:
+  void work();
+
+  std::filesystem::path folder_;
+  wire::Mailbox<std::vector<OutgoingImage>> frames_{2};
+  std::set<std::string> causes_;  // of failures, logged already
+  std::jthread worker_;
+};
+
+}  // namespace lfd::node
