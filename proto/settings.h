@@ -38,7 +38,7 @@ struct RenderSettings {
   AoSettings ao;
   glm::vec3 background{0};  // linear
   bool plan = true;         // leave out what the scene does not need
-  double subdivision_px = 0.1;
+  double subdivision_px = 0.02;
   std::optional<double> near_z_m, far_z_m;
   bool unlit = false;
   bool operator==(const RenderSettings&) const = default;

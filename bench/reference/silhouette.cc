@@ -14,6 +14,7 @@ constexpr double kSteepest_pitches = 2;
 constexpr double kLargestBend_pitches = 0.5;
 constexpr double kUnexplained_pitches = 0.05;
 constexpr double kClosedGap_pitches = 0.01;
+constexpr int kMaskSteps = 8;      // to a half of the way between two pixels
 constexpr int kMostHalvings = 24;  // then the way is 3e-8 pixels long; a surface still open there is torn
 
 // A pixel position with what its line meets.
@@ -73,8 +74,21 @@ class Neighbours {
     return false;
   }
 
+  // Whether one triangle is seen all along the way: a mask may have holes that are smaller than it.
+  bool is_solid(const Sight& p, const Sight& q) const {
+    const WorldScene& scene = intersector_.scene();
+    if (!scene.material[scene.triangle[p.hit.triangle].material].alpha_cutoff) return true;
+    for (int i = 1; i < kMaskSteps; ++i) {
+      const double t = static_cast<double>(i) / kMaskSteps;
+      const PixelPoint between{p.pixel.x + t * (q.pixel.x - p.pixel.x), p.pixel.y + t * (q.pixel.y - p.pixel.y)};
+      const auto hit = cast_point(intersector_, view_, between);
+      if (!hit || hit->triangle != p.hit.triangle) return false;
+    }
+    return true;
+  }
+
   bool is_whole(const Sight& p, const Sight& q) const {
-    if (p.hit.triangle == q.hit.triangle) return true;
+    if (p.hit.triangle == q.hit.triangle) return is_solid(p, q);
     const auto line_p = pixel_line(view_.display, view_.module, p.pixel);
     const auto line_q = pixel_line(view_.display, view_.module, q.pixel);
     const double pitch = length(at_depth(*line_q, p.hit.physical.z) - p.hit.physical);

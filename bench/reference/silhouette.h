@@ -11,7 +11,7 @@ namespace lfd::reference {
 // A silhouette passes between two pixels that share a side if only one of them shows a surface, if there is none
 // halfway between their centres, or if the surface is torn on one of the two halves of the way. It is whole on a half
 // if
-//   both ends see the same triangle; or
+//   both ends see the same triangle (of a material with a mask: it is also seen at 7 places between them); or
 //   the step in depth is what the planes of the two triangles explain: both planes predict a step of at most 2 pitches,
 //   the predictions differ by at most half a pitch, and the true step lies between them, within 0.05 pitch; or halving
 //   the way again and again, always into the part with the larger gap, meets a gap below 0.01 pitch or two points of

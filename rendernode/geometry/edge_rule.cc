@@ -13,7 +13,7 @@ namespace lfd {
 namespace {
 
 constexpr int kSlices = 64;
-constexpr double kAlongFactor = 5;
+constexpr double kAlongFactor = 20;
 constexpr double kBendMargin = 2;      // the bend is sampled, not proven
 constexpr double kScreenMargin = 1.1;  // edges this far beside the screen cannot be seen
 

@@ -15,7 +15,7 @@ namespace lfd {
 class EdgeRule {
  public:
   // tolerance_px: how far the drawn edge may lie beside the true one; along the edge (which moves textures and depth, not
-  // outlines) five times as much is allowed. modules: those the geometry is drawn for.
+  // outlines) twenty times as much is allowed. modules: those the geometry is drawn for.
   EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const DepthLimits& limits,
            double tolerance_px);
 

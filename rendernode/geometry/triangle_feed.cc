@@ -20,7 +20,8 @@ std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physic
   const Vector3<Physical> unit = (1 / area2) * n;
   const Point3<Physical> centre = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3};
   const double offset = dot(unit, centre - Point3<Physical>{});
-  return shared::PrimitivePlane{{unit.x, unit.y, unit.z, offset}, {}};
+  const auto [low, high] = std::minmax({a.z, b.z, c.z});
+  return shared::PrimitivePlane{{unit.x, unit.y, unit.z, offset}, {low, high, 0, 0}};
 }
 
 std::uint16_t half_of(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
@@ -134,9 +135,7 @@ void TriangleFeed::emit(const Triangle& t, const shared::PrimitivePlane& plane) 
 }
 
 void TriangleFeed::emit(std::array<std::uint32_t, 3> index, const std::array<Point3<Physical>, 3>& p,
-                        shared::PrimitivePlane plane) {
-  const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
-  plane.z_range = {low, high, 0, 0};
+                        const shared::PrimitivePlane& plane) {
   out_.planes.push_back(plane);
   out_.indices.insert(out_.indices.end(), index.begin(), index.end());
   for (const auto& corner : p) {

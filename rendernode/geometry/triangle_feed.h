@@ -40,7 +40,8 @@ class TriangleFeed {
   void add_cut(const Triangle& triangle, const shared::PrimitivePlane& plane);
   void split(const Triangle& triangle, const shared::PrimitivePlane& plane, int depth);
   void emit(const Triangle& triangle, const shared::PrimitivePlane& plane);
-  void emit(std::array<std::uint32_t, 3> index, const std::array<Point3<Physical>, 3>& p, shared::PrimitivePlane plane);
+  void emit(std::array<std::uint32_t, 3> index, const std::array<Point3<Physical>, 3>& p,
+            const shared::PrimitivePlane& plane);
   std::uint32_t write(const Corner& corner);
 
   const DepthLimits& limits_;

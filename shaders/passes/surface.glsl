@@ -16,7 +16,8 @@ vec2 screen_of_pixel(ModuleParams m, vec2 pixel) {
 }
 
 // Physical point where the line of a pixel meets the triangle (w: 1 seen from the front, -1 from behind, 0 not at all).
-// The point is kept within the triangle's own range of z, which bounds the error where the line grazes the plane.
+// The point is kept within the range of z of the scene's triangle, which bounds the error where the line grazes the plane. (Not
+// of the piece that is drawn: a line that meets the neighbouring piece is within tolerance of this one, far as it may lie in z.)
 vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 pixel) {
   vec2 s = screen_of_pixel(m, pixel);
   if (!on_screen(m, s)) return vec4(0.0);
@@ -41,3 +42,14 @@ vec4 texel() {
   return vec4(1.0);
 #endif
 }
+
+#ifdef ALPHA_MASK
+// Alpha that a mask is held against: of the finest level, whose holes are the surface's own. Coarser ones would close or eat them away.
+float mask_alpha() {
+#ifdef TEXTURED
+  return textureLod(base_color_texture, vec3(uv, texture_layer), 0.0).a;
+#else
+  return 1.0;
+#endif
+}
+#endif

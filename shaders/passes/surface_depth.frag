@@ -14,15 +14,12 @@ in vec4 color;
 #endif
 
 void main() {
-#ifdef ALPHA_MASK
-  float alpha = texel().a;
-#endif
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
   MaterialParams material = materials[draw.z];
   vec4 p = meet(m, plane, gl_FragCoord.xy);
   if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
 #ifdef ALPHA_MASK
-  if (alpha * material.base_color.a * color.a < material.flags.x) discard;
+  if (mask_alpha() * material.base_color.a * color.a < material.flags.x) discard;
 #endif
 }

@@ -32,7 +32,7 @@ void main() {
   if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
   base *= material.base_color * color;
 #ifdef ALPHA_MASK
-  if (base.a < material.flags.x) discard;
+  if (mask_alpha() * material.base_color.a * color.a < material.flags.x) discard;
 #endif
   out_albedo = vec4(base.rgb, material.flags.z == 1.0 ? 0.5 : 1.0);
 #ifdef WRITE_POSITION

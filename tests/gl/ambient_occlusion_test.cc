@@ -63,7 +63,7 @@ std::vector<View> views() {
 
 // A plane that lies along the screen is open in every pixel. On a slanted one a sample meets the centre of the pixel it
 // falls on, not its own line; the samples of a pair fall on pixels that mirror each other, except where the map's bend
-// moves one of them over a border of pixels: about one pair in a hundred is then hidden or open as a whole. Those
+// moves one of them over a border of pixels: less than one pair in a hundred is then hidden or open as a whole. Those
 // pixels are counted, and their mean bounded.
 TEST(AmbientOcclusion, AnOpenPlaneIsOpenWithPointSymmetricSamples) {
   constexpr double kR = 0.1, kOneLevel = 1.0 / 255;

@@ -26,8 +26,8 @@ Rgb color_of(bool is_drawn, const std::optional<reference::Hit>& hit, bool near_
   return {byte, static_cast<std::uint8_t>(90 + 165 * byte / 255), byte};
 }
 
-Picture8 difference_picture(const reference::HitImage& hits, const std::vector<std::uint8_t>& near_silhouette, const PictureF& rendered,
-                            Point3<World> origin, double diagonal_m) {
+Picture8 difference_picture(const reference::HitImage& hits, const std::vector<std::uint8_t>& near_silhouette,
+                            const PictureF& rendered, Point3<World> origin, double diagonal_m) {
   Picture8 picture = black_picture(rendered.width, rendered.height);
   for (std::size_t i = 0; i < hits.hit.size(); ++i) {
     const float* p = &rendered.rgba[4 * i];
@@ -42,16 +42,19 @@ Picture8 difference_picture(const reference::HitImage& hits, const std::vector<s
 
 void print(const std::string& name, const reference::Truth& truth) {
   const std::size_t in_any = truth.in_both + truth.only_in_reference + truth.only_in_rendered;
-  fmt::print("{}: {} of {} compared; median {:.1e}, 99 % {:.1e}, max {:.1e} at ({}, {}); {} only in the reference, {} only rendered: {:.4f} %\n",
-             name, truth.compared, in_any, truth.median, truth.percent_99, truth.max, truth.worst.column, truth.worst.row,
-             truth.only_in_reference, truth.only_in_rendered, 100 * truth.mismatch_share);
+  fmt::print(
+      "{}: {} of {} compared; median {:.1e}, 99 % {:.1e}, max {:.1e} at ({}, {}); {} only in the reference, {} only "
+      "rendered: {:.4f} %\n",
+      name, truth.compared, in_any, truth.median, truth.percent_99, truth.max, truth.worst.column, truth.worst.row,
+      truth.only_in_reference, truth.only_in_rendered, 100 * truth.mismatch_share);
 }
 
 }  // namespace
 
 RegionOfInterest whole_scene(const proto::Scene& scene, const DisplayCalibration& display) {
   const auto point = [](const proto::Vector& v) { return Point3<World>{v.x(), v.y(), v.z()}; };
-  return fit_to_screen(point(scene.bounds_low()), point(scene.bounds_high()), display.screen.width_m, display.screen.height_m);
+  return fit_to_screen(point(scene.bounds_low()), point(scene.bounds_high()), display.screen.width_m,
+                       display.screen.height_m);
 }
 
 void expect_true(const TruthCase& test_case) {
@@ -80,8 +83,10 @@ void expect_true(const TruthCase& test_case) {
     const auto broken = reference::broken_bounds(truth);
     if (broken.empty()) continue;
     const auto path = std::filesystem::path(LFD_BIN_DIR) / ".." / fmt::format("difference of {}.png", name);
-    const Status written = write_png(path, difference_picture(hits, near_silhouette, rendered, result.position_origin, diagonal_m));
-    ADD_FAILURE() << name << ": " << testing::PrintToString(broken) << "\n" << (written ? "see " + path.string() : written.error().message());
+    const Status written =
+        write_png(path, difference_picture(hits, near_silhouette, rendered, result.position_origin, diagonal_m));
+    ADD_FAILURE() << name << ": " << testing::PrintToString(broken) << "\n"
+                  << (written ? "see " + path.string() : written.error().message());
   }
 }
 

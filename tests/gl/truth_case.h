@@ -22,8 +22,8 @@ struct TruthCase {
 // The default region of interest: the scene's bounds, fitted to the screen.
 RegionOfInterest whole_scene(const proto::Scene& scene, const DisplayCalibration& display);
 
-// Renders the modules in one frame, compares their positions with the reference, prints the figures, and fails the test where a bound
-// of reference::TruthBounds is broken. Then a picture of the differences is written beside the programs:
+// Renders the modules in one frame, compares their positions with the reference, prints the figures, and fails the test
+// where a bound of reference::TruthBounds is broken. Then a picture of the differences is written beside the programs:
 //   red: a surface only in the reference; blue: only in what was rendered; dark grey: near a silhouette, not compared;
 //   green to white: an error of 1e-7 and less to 1e-3 and more of the ROI diagonal, by its logarithm.
 void expect_true(const TruthCase& test_case);

@@ -209,6 +209,7 @@ TEST(Caster, MirroredInstancesKeepTheirFront) {
   const DisplayCalibration display = one_module(Diffuser::kLinear);
   SceneMaker maker;
   MeshArrays mesh = SceneMaker::mesh_of({{{{-2, -2, 0}, {2, -2, 0}, {0, 4, 0}}}});
+  std::swap(mesh.index[1], mesh.index[2]);  // as scene.proto asks of a mesh that is placed mirrored
   maker.add_mesh(mesh, maker.add_material({}), {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
   const WorldScene scene = scene_of(maker);
   const Intersector intersector(scene);
