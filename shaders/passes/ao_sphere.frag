@@ -9,10 +9,10 @@
 #include "lib/image_map.glsl"
 #include "lib/sampling.glsl"
 
-layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
-layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
-layout(std430, binding = BINDING_AO) readonly buffer Ao { AoParams ao; };
-layout(std430, binding = BINDING_AO_SAMPLES) readonly buffer AoSamples { vec4 samples[]; };  // in the unit shell
+layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
+layout(std140, binding = BINDING_AO) uniform Ao { AoParams ao; };
+layout(std140, binding = BINDING_AO_SAMPLES) uniform AoSamples { vec4 samples[AO_MOST_SAMPLES]; };  // in the unit shell
 layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
 
 flat in int layer;
