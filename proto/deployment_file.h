@@ -14,6 +14,9 @@
 
 namespace lfd {
 
+// A node keeps its modules in one array; more than these need another node.
+inline constexpr int kMaxModulesPerNode = 256;
+
 // The part of a display that one render node draws.
 struct NodeShare {
   std::string name;          // unique; letters, digits, '.', '-', '_'

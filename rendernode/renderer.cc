@@ -30,7 +30,9 @@ Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::
       modules_(std::move(modules)),
       description_(context.description()),
       gpu_modules_(upload_modules(display_, modules_)),
-      targets_(display_.image, static_cast<int>(modules_.size())) {}
+      targets_(display_.image, static_cast<int>(modules_.size())) {
+  LFD_CHECK(modules_.size() <= MODULES_PER_NODE, "more modules than a node can have");
+}
 
 Status Renderer::set_state(const proto::State& state, const Assets& assets) {
   if (state_ && MessageDifferencer::Equals(*state_, state)) return {};
@@ -95,7 +97,7 @@ Status Renderer::draw(const FrameOptions& options) {
   slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;
   if (!slot.reused) {
     slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_, options.buffers});
-    const CommandList commands = make_commands(slot.plan, geometry_.items, options.time_modules);
+    const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
     LFD_TRY_STATUS(passes_.submit(slot.plan, commands, {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
                                   targets_, slot.timers));
     slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image);

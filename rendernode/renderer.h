@@ -40,7 +40,8 @@ struct FrameResult {
 
 class Renderer {
  public:
-  // `context` is current on this thread and outlives the renderer; modules: numbers, each below display.modules.size().
+  // `context` is current on this thread and outlives the renderer; modules: numbers, each below display.modules.size(), at most
+  // MODULES_PER_NODE of them.
   Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules);
 
   // Takes over scene, region of interest and settings; rebuilds only what they change. On an error the last state stays.

@@ -118,6 +118,7 @@ Status Daemon::welcome(const proto::Welcome& message) {
   for (const auto k : modules) {
     if (k >= display->modules.size()) return Error(fmt::format("the controller gives module {} of {}", k, display->modules.size()));
   }
+  if (modules.size() > MODULES_PER_NODE) return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
   LFD_TRY(state_socket_, wire::connect_subscriber(*context_, message.state_endpoint()));
   LFD_TRY(bulk_, wire::connect_dealer(*context_, message.bulk_endpoint(), wire::kChunks));
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());

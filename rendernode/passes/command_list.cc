@@ -14,9 +14,14 @@ struct IndirectCommand {  // as OpenGL 4.5, 10.4 lays it out
   std::uint32_t base_instance;
 };
 
+std::uint32_t flags_of(const MaterialFacts& material) {
+  return (material.double_sided ? DRAW_DOUBLE_SIDED : 0U) | (material.unlit ? DRAW_UNLIT : 0U);
+}
+
 }  // namespace
 
-CommandList make_commands(const FramePlan& plan, const std::vector<GeometryItem>& items, bool batch_per_module) {
+CommandList make_commands(const FramePlan& plan, const std::vector<GeometryItem>& items,
+                          const std::vector<MaterialFacts>& materials, bool batch_per_module) {
   CommandList list;
   std::vector<std::vector<std::uint32_t>> layer_sets;
   if (batch_per_module) {
@@ -36,7 +41,7 @@ CommandList make_commands(const FramePlan& plan, const std::vector<GeometryItem>
         if (batch_per_module && draw.layer != set.front()) continue;
         const GeometryItem& item = items[draw.item];
         commands.push_back({item.index_count, 1, item.first_index, 0, static_cast<std::uint32_t>(records.size())});
-        records.push_back({draw.layer, item.primitive_base, item.material, 0});
+        records.push_back({draw.layer, item.primitive_base, item.material, flags_of(materials[item.material])});
         ++submission.count;
       }
       if (submission.count > 0) batch.submissions.push_back(submission);

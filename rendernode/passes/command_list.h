@@ -28,6 +28,7 @@ struct CommandList {
   std::vector<Batch> batches;
 };
 
-CommandList make_commands(const FramePlan& plan, const std::vector<GeometryItem>& items, bool batch_per_module);
+CommandList make_commands(const FramePlan& plan, const std::vector<GeometryItem>& items,
+                          const std::vector<MaterialFacts>& materials, bool batch_per_module);
 
 }  // namespace lfd

@@ -75,18 +75,20 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   const AoSettings& ao = in.settings.ao;
   const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536}};
   ao_params_ = gl::make_buffer(std::span(&ao_params, 1));
-  ao_samples_ = gl::make_buffer(shell_samples(ao));
-  const auto bind = [](GLuint binding, const gl::Buffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+  std::vector<glm::vec4> samples = shell_samples(ao);
+  samples.resize(AO_MOST_SAMPLES);
+  ao_samples_ = gl::make_buffer(samples);
+  const auto bind = [](GLenum target, GLuint binding, const gl::Buffer& buffer) {
+    glBindBufferBase(target, binding, buffer.name());
   };
-  bind(BINDING_MODULES, in.modules.params);
-  bind(BINDING_PLANES, in.geometry.planes);
-  bind(BINDING_MATERIALS, in.materials.params);
-  bind(BINDING_FRAME, frame_params_);
-  bind(BINDING_LIGHTS, in.lights.params);
-  bind(BINDING_AO, ao_params_);
-  bind(BINDING_AO_SAMPLES, ao_samples_);
-  bind(BINDING_LAYERS, commands.layers);
+  bind(GL_UNIFORM_BUFFER, BINDING_MODULES, in.modules.params);
+  bind(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_params_);
+  bind(GL_UNIFORM_BUFFER, BINDING_AO, ao_params_);
+  bind(GL_UNIFORM_BUFFER, BINDING_AO_SAMPLES, ao_samples_);
+  bind(GL_SHADER_STORAGE_BUFFER, BINDING_PLANES, in.geometry.planes);
+  bind(GL_SHADER_STORAGE_BUFFER, BINDING_MATERIALS, in.materials.params);
+  bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS, in.lights.params);
+  bind(GL_SHADER_STORAGE_BUFFER, BINDING_LAYERS, commands.layers);
   glVertexArrayVertexBuffer(surface_array_.name(), 0, in.geometry.vertices.name(), 0, sizeof(SurfaceVertex));
   glVertexArrayVertexBuffer(surface_array_.name(), 1, commands.records.name(), 0, sizeof(shared::DrawRecord));
   glVertexArrayElementBuffer(surface_array_.name(), in.geometry.indices.name());

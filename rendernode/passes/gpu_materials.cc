@@ -88,7 +88,7 @@ class Gatherer {
   std::map<GroupKey, Gathered> groups_;
 };
 
-shared::MaterialParams params_of(const proto::Material& material, int layer, bool unlit) {
+shared::MaterialParams params_of(const proto::Material& material, int layer) {
   shared::MaterialParams params{};
   for (int i = 0; i < 4; ++i) params.base_color[i] = i < material.base_color_size() ? material.base_color(i) : 1.0F;
   const bool transformed = material.texture().uv_transform_size() == 6;
@@ -96,8 +96,7 @@ shared::MaterialParams params_of(const proto::Material& material, int layer, boo
   const auto entry = [&](int i) { return transformed ? material.texture().uv_transform(i) : identity[static_cast<std::size_t>(i)]; };
   params.uv_transform_0 = {entry(0), entry(1), entry(2), static_cast<float>(layer)};
   params.uv_transform_1 = {entry(3), entry(4), entry(5), 0};
-  params.flags = {material.has_alpha_cutoff() ? material.alpha_cutoff() : -1.0F, material.double_sided() ? 1 : 0,
-                  unlit || material.unlit() ? 1 : 0, 0};
+  params.alpha = {material.has_alpha_cutoff() ? material.alpha_cutoff() : -1.0F, 0, 0, 0};
   return params;
 }
 
@@ -115,8 +114,8 @@ Result<GpuMaterials> upload_materials(const proto::Scene& scene, const Assets& a
       if (!found) return found.error().within(fmt::format("material {} \"{}\"", i, material.name()));
       place = *found;
     }
-    params.push_back(params_of(material, place.second, unlit));
-    gpu.facts.push_back({place.first, material.has_alpha_cutoff(), unlit || material.unlit()});
+    params.push_back(params_of(material, place.second));
+    gpu.facts.push_back({place.first, material.has_alpha_cutoff(), unlit || material.unlit(), material.double_sided()});
   }
   gpu.params = gl::make_buffer(params);
   gpu.groups = gatherer.upload();

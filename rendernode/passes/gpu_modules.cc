@@ -87,6 +87,7 @@ GpuModules upload_modules(const DisplayCalibration& display, const std::vector<s
     params.push_back(module_params(display, display.modules[k], table ? static_cast<int>(tabulated.size()) : -1));
     if (table) tabulated.push_back(k);
   }
+  params.resize(MODULES_PER_NODE);
   GpuModules gpu{gl::make_buffer(params), {}};
   if (tabulated.empty()) return gpu;
   gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(tabulated.size()));

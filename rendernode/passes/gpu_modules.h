@@ -17,7 +17,7 @@ shared::ModuleParams module_params(const DisplayCalibration& display, const Modu
 std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCalibration& module);
 
 struct GpuModules {
-  gl::Buffer params;         // std430 array of ModuleParams, one per layer
+  gl::Buffer params;         // array of MODULES_PER_NODE ModuleParams, one per layer
   gl::Texture pixel_tables;  // RG32F array; empty where no module needs one
   bool has_tables() const { return static_cast<bool>(pixel_tables); }
 };

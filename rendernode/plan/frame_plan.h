@@ -26,6 +26,7 @@ struct MaterialFacts {
   int texture_group = -1;  // which array texture holds its picture; -1: none
   bool alpha_mask = false;
   bool unlit = false;
+  bool double_sided = false;
   bool operator==(const MaterialFacts&) const = default;
 };
 

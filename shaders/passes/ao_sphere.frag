@@ -9,10 +9,10 @@
 #include "lib/image_map.glsl"
 #include "lib/sampling.glsl"
 
-layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
-layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
-layout(std430, binding = BINDING_AO) readonly buffer Ao { AoParams ao; };
-layout(std430, binding = BINDING_AO_SAMPLES) readonly buffer AoSamples { vec4 samples[]; };  // in the unit shell
+layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
+layout(std140, binding = BINDING_AO) uniform Ao { AoParams ao; };
+layout(std140, binding = BINDING_AO_SAMPLES) uniform AoSamples { vec4 samples[AO_MOST_SAMPLES]; };  // in the unit shell
 layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
 
 flat in int layer;
@@ -24,10 +24,22 @@ vec3 physical_from_world(vec3 p) {
               dot(frame.physical_from_world_2, vec4(p, 1.0)));
 }
 
+// Position stored at a point of the image: between four pixels that all have a surface, else that of the pixel it lies in. A sample
+// of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
+vec4 surface_at(vec2 pixel) {
+  vec2 from_centre = pixel - 0.5;
+  ivec3 at = ivec3(floor(from_centre), layer);
+  vec2 share = fract(from_centre);
+  vec4 above = mix(texelFetch(positions, at, 0), texelFetch(positions, at + ivec3(1, 0, 0), 0), share.x);
+  vec4 below = mix(texelFetch(positions, at + ivec3(0, 1, 0), 0), texelFetch(positions, at + ivec3(1, 1, 0), 0), share.x);
+  vec4 surface = mix(above, below, share.y);
+  return surface.w > 0.9999 ? surface : texelFetch(positions, ivec3(pixel, layer), 0);
+}
+
 bool is_hidden(ModuleParams m, vec3 s_in_world) {
   vec4 q = image_from_physical(m, physical_from_world(s_in_world));
   if (q.w == 0.0) return false;
-  vec4 surface = texelFetch(positions, ivec3(q.xy, layer), 0);
+  vec4 surface = surface_at(q.xy);
   return surface.w != 0.0 && dot(frame.physical_from_world_2, vec4(surface.xyz, 1.0)) > q.z;
 }
 

@@ -6,7 +6,7 @@
 #include "lib/curve.glsl"
 #include "lib/lights.glsl"
 
-layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
 layout(std430, binding = BINDING_LIGHTS) readonly buffer Lights { LightParams lights[]; };
 layout(binding = UNIT_ALBEDO) uniform sampler2DArray albedo;
 layout(binding = UNIT_POSITION) uniform sampler2DArray positions;

@@ -1,8 +1,7 @@
 // What both geometry passes do per pixel: the pixel's own line meets the triangle's plane. Needs lib/optics.glsl, lib/image_map.glsl.
 
-layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
+layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
 layout(std430, binding = BINDING_PLANES) readonly buffer Planes { PrimitivePlane planes[]; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialParams materials[]; };
 layout(binding = UNIT_TEXTURE) uniform sampler2DArray base_color_texture;
 #ifdef PIXEL_TABLE
 layout(binding = UNIT_PIXEL_TABLE) uniform sampler2DArray pixel_table;

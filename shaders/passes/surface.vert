@@ -9,9 +9,9 @@
 #include "lib/optics.glsl"
 #include "lib/image_map.glsl"
 
-layout(std430, binding = BINDING_MODULES) readonly buffer Modules { ModuleParams modules[]; };
+layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
 layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialParams materials[]; };
-layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
 
 layout(location = 0) in vec3 p_in_physical;
 layout(location = 1) in vec3 normal_in_world;
@@ -23,7 +23,10 @@ invariant gl_Position;
 flat out uvec4 draw;
 #ifdef ATTRIBUTES
 out vec3 normal;
-out vec4 color;
+out vec4 color;  // of vertex and material
+#endif
+#ifdef ALPHA_MASK
+flat out float alpha_cutoff;
 #endif
 #ifdef TEXTURED
 // The transform and the layer come from here, not from the fragment's material: a picture's level is chosen by differences between
@@ -42,7 +45,10 @@ void main() {
   draw = record;
 #ifdef ATTRIBUTES
   normal = normal_in_world;
-  color = color_in;
+  color = color_in * materials[record.z].base_color;
+#endif
+#ifdef ALPHA_MASK
+  alpha_cutoff = materials[record.z].alpha.x;
 #endif
 #ifdef TEXTURED
   MaterialParams material = materials[record.z];

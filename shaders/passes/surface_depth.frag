@@ -3,7 +3,7 @@
 #include "shared/bindings.glsl"
 #include "shared/module_params.glsl"
 #include "shared/primitive_plane.glsl"
-#include "shared/material_params.glsl"
+#include "shared/draw_record.glsl"
 #include "lib/optics.glsl"
 #include "lib/image_map.glsl"
 #include "passes/surface.glsl"
@@ -12,14 +12,16 @@ flat in uvec4 draw;
 #ifdef ATTRIBUTES
 in vec4 color;
 #endif
+#ifdef ALPHA_MASK
+flat in float alpha_cutoff;
+#endif
 
 void main() {
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
-  MaterialParams material = materials[draw.z];
   vec4 p = meet(m, plane, gl_FragCoord.xy);
-  if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
+  if (p.w == 0.0 || (p.w < 0.0 && (draw.w & DRAW_DOUBLE_SIDED) == 0u)) discard;
 #ifdef ALPHA_MASK
-  if (mask_alpha() * material.base_color.a * color.a < material.flags.x) discard;
+  if (mask_alpha() * color.a < alpha_cutoff) discard;
 #endif
 }

@@ -4,16 +4,19 @@
 #include "shared/module_params.glsl"
 #include "shared/frame_params.glsl"
 #include "shared/primitive_plane.glsl"
-#include "shared/material_params.glsl"
+#include "shared/draw_record.glsl"
 #include "lib/optics.glsl"
 #include "lib/image_map.glsl"
 #include "passes/surface.glsl"
 
-layout(std430, binding = BINDING_FRAME) readonly buffer Frame { FrameParams frame; };
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
 
 flat in uvec4 draw;
 in vec3 normal;
 in vec4 color;
+#ifdef ALPHA_MASK
+flat in float alpha_cutoff;
+#endif
 
 layout(location = 0) out vec4 out_albedo;    // linear colour; alpha 1 lit, 0.5 unlit, 0 no surface
 #ifdef WRITE_POSITION
@@ -27,14 +30,13 @@ void main() {
   vec4 base = texel();
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
-  MaterialParams material = materials[draw.z];
   vec4 p = meet(m, plane, gl_FragCoord.xy);
-  if (p.w == 0.0 || (p.w < 0.0 && material.flags.y == 0.0)) discard;
-  base *= material.base_color * color;
+  if (p.w == 0.0 || (p.w < 0.0 && (draw.w & DRAW_DOUBLE_SIDED) == 0u)) discard;
+  base *= color;
 #ifdef ALPHA_MASK
-  if (mask_alpha() * material.base_color.a * color.a < material.flags.x) discard;
+  if (mask_alpha() * color.a < alpha_cutoff) discard;
 #endif
-  out_albedo = vec4(base.rgb, material.flags.z == 1.0 ? 0.5 : 1.0);
+  out_albedo = vec4(base.rgb, (draw.w & DRAW_UNLIT) != 0u ? 0.5 : 1.0);
 #ifdef WRITE_POSITION
   vec4 q = vec4(p.xyz, 1.0);
   out_position = vec4(dot(frame.world_from_physical_0, q), dot(frame.world_from_physical_1, q), dot(frame.world_from_physical_2, q), 1.0);

@@ -1,4 +1,8 @@
 // Binding points, said once for both languages.
+// Small buffers of which all pixels read the same entries are uniform buffers (software rasterisers read those much faster):
+// MODULES, FRAME, AO, AO_SAMPLES; their arrays have a fixed length.
+#define MODULES_PER_NODE 256
+#define AO_MOST_SAMPLES 256
 #define BINDING_MODULES 0
 #define BINDING_PLANES 1
 #define BINDING_MATERIALS 2

@@ -50,7 +50,7 @@ std::vector<Struct> all_structs() {
        "MaterialParams",
        sizeof(shared::MaterialParams),
        {LFD_AT(MaterialParams, base_color), LFD_AT(MaterialParams, uv_transform_0),
-        LFD_AT(MaterialParams, uv_transform_1), LFD_AT(MaterialParams, flags)}},
+        LFD_AT(MaterialParams, uv_transform_1), LFD_AT(MaterialParams, alpha)}},
       {"module_params",
        "ModuleParams",
        sizeof(shared::ModuleParams),

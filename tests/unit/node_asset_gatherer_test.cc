@@ -1,0 +1,116 @@
+// Assets put together piece by piece: whatever the order, whatever comes twice, broken or late.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "base/hash.h"
+#include "rendernode/node/asset_gatherer.h"
+
+namespace lfd::node {
+namespace {
+
+constexpr std::uint32_t kPiece = 100;
+
+// A scene that names one mesh a text, and a server of those texts.
+struct Served {
+  proto::Scene scene;
+  std::map<std::string, std::string> content;
+};
+
+Served served(const std::vector<std::size_t>& sizes) {
+  Served s;
+  for (const std::size_t size : sizes) {
+    std::string text(size, 'a');
+    for (std::size_t i = 0; i < size; ++i) text[i] = static_cast<char>('a' + (i * 7 + size) % 26);
+    const std::string hash = content_hash(text);
+    s.scene.add_instance()->set_mesh(hash);
+    s.content[hash] = std::move(text);
+  }
+  return s;
+}
+
+Status answer(AssetGatherer& gatherer, const Served& s, const proto::Want& want) {
+  const std::string& text = s.content.at(want.hash());
+  proto::Chunk chunk;
+  chunk.set_hash(want.hash());
+  chunk.set_offset(want.offset());
+  chunk.set_total(text.size());
+  return gatherer.piece_came(chunk, std::string_view(text).substr(want.offset(), want.length()));
+}
+
+TEST(AssetGatherer, GathersEverythingInWhateverOrderPiecesCome) {
+  const Served s = served({1, 99, 100, 101, 1000, 5431});
+  std::mt19937 random(3);
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(s.scene);
+  std::vector<proto::Want> open;
+  for (int round = 0; round < 1000 && !gatherer.complete(); ++round) {
+    for (auto& want : gatherer.next_requests()) open.push_back(want);
+    ASSERT_LE(open.size(), static_cast<std::size_t>(AssetGatherer::kPiecesUnderWay));
+    ASSERT_FALSE(open.empty());
+    std::swap(open[random() % open.size()], open.back());
+    ASSERT_TRUE(answer(gatherer, s, open.back()));
+    open.pop_back();
+  }
+  ASSERT_TRUE(gatherer.complete());
+  for (const auto& [hash, text] : s.content) EXPECT_EQ(*gatherer.assets().at(hash), text);
+}
+
+TEST(AssetGatherer, AsksOnlyForWhatItLacksAndForgetsWhatNobodyNames) {
+  const Served first = served({10, 20}), second = served({20, 30});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(first.scene);
+  for (const auto& want : gatherer.next_requests()) ASSERT_TRUE(answer(gatherer, first, want));
+  gatherer.want(second.scene);
+  const auto requests = gatherer.next_requests();
+  ASSERT_EQ(requests.size(), 1u);
+  EXPECT_EQ(second.content.at(requests[0].hash()).size(), 30u);
+  EXPECT_EQ(gatherer.assets().size(), 1u);
+}
+
+TEST(AssetGatherer, ForgedContentIsRefusedAndAskedForAgain) {
+  const Served s = served({250});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(s.scene);
+  proto::Chunk chunk;
+  chunk.set_hash(s.content.begin()->first);
+  chunk.set_total(50);
+  ASSERT_EQ(gatherer.next_requests().size(), 1u);
+  EXPECT_FALSE(gatherer.piece_came(chunk, std::string(50, 'x')));
+  for (int round = 0; round < 10 && !gatherer.complete(); ++round) {
+    for (const auto& want : gatherer.next_requests()) ASSERT_TRUE(answer(gatherer, s, want));
+  }
+  EXPECT_TRUE(gatherer.complete());
+}
+
+TEST(AssetGatherer, PiecesThatDoNotFitAreRefused) {
+  const Served s = served({250});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(s.scene);
+  proto::Chunk chunk;
+  chunk.set_hash(s.content.begin()->first);
+  chunk.set_total(250);
+  chunk.set_offset(200);
+  EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x')));  // past the end
+  chunk.set_offset(0);
+  EXPECT_FALSE(gatherer.piece_came(chunk, std::string(10, 'x')));   // short
+  chunk.set_total(AssetGatherer::kMaxAsset_bytes + 1);
+  EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x')));  // absurd
+}
+
+TEST(AssetGatherer, ALostLinkCostsNothing) {
+  const Served s = served({450});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(s.scene);
+  for (const auto& want : gatherer.next_requests()) ASSERT_TRUE(answer(gatherer, s, want));
+  ASSERT_FALSE(gatherer.next_requests().empty());  // these are lost
+  gatherer.ask_again();
+  for (int round = 0; round < 10 && !gatherer.complete(); ++round) {
+    for (const auto& want : gatherer.next_requests()) ASSERT_TRUE(answer(gatherer, s, want));
+  }
+  EXPECT_TRUE(gatherer.complete());
+}
+
+}  // namespace
+}  // namespace lfd::node
