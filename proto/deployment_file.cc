@@ -165,7 +165,13 @@ Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
   if (auto fault = read_addresses(deployment.message.addresses(), deployment.addresses)) return fault;
   if (auto fault = read_pacing(deployment.message.pacing(), deployment.pacing)) return fault;
   const int module_count = static_cast<int>(deployment.display.modules.size());
-  return assign_modules(deployment.message, !overrides.display, module_count, deployment.nodes);
+  if (auto fault = assign_modules(deployment.message, !overrides.display, module_count, deployment.nodes)) return fault;
+  for (const NodeShare& node : deployment.nodes) {
+    if (node.modules.size() <= kMaxModulesPerNode) continue;
+    return Fault{"node", Error(fmt::format("node \"{}\": {} modules; a node draws at most {}", node.name, node.modules.size(),
+                                           kMaxModulesPerNode))};
+  }
+  return std::nullopt;
 }
 
 Result<int> parse_number(std::string_view text) {

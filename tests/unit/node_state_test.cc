@@ -10,7 +10,7 @@ namespace {
 proto::State state_at(std::uint64_t sequence) {
   proto::State state;
   state.set_sequence(sequence);
-  state.mutable_scene()->set_name("scene");
+  state.mutable_scene()->add_light();
   return state;
 }
 
