@@ -33,7 +33,7 @@ std::vector<Struct> all_structs() {
        "DrawRecord",
        sizeof(shared::DrawRecord),
        {LFD_AT(DrawRecord, layer), LFD_AT(DrawRecord, primitive_base), LFD_AT(DrawRecord, material),
-        LFD_AT(DrawRecord, pad)}},
+        LFD_AT(DrawRecord, flags)}},
       {"frame_params",
        "FrameParams",
        sizeof(shared::FrameParams),
