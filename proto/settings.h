@@ -13,7 +13,7 @@ namespace lfd {
 enum class SampleGenerator { kPoissonDisk, kUniform, kJittered, kLatinSquare };
 enum class AoTarget { kAmbientLight, kWholeColor };
 
-// Ambient occlusion by Algorithm 2 of seeds/001; the meaning of each number: settings.proto.
+// Ambient occlusion by Algorithm 2 of Doronin et al., WSCG 2017; the meaning of each number: settings.proto.
 struct AoSettings {
   bool enabled = true;
   double radius_m = 0;  // 0: radius_roi x ROI diagonal

@@ -70,6 +70,9 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   if (new_materials) {
     LFD_TRY(materials, upload_materials(state.scene(), assets, settings.unlit));
   }
+  std::erase_if(meshes_, [&](const auto& mesh) {
+    return std::ranges::none_of(state.scene().instance(), [&](const auto& instance) { return instance.mesh() == mesh.first; });
+  });
   if (rule) rule_ = std::move(rule);
   limits_ = limits;
   if (geometry) {

@@ -101,6 +101,13 @@ Status Daemon::hear_control() {
   while (const auto message = control_.receive()) {
     last_heard_ = Clock::now();
     const auto& envelope = message->envelope;
+    if (envelope.has_refused() && welcome_) {
+      log::info("the controller does not know this node ({}); joining again", envelope.refused().reason());
+      welcome_ = false;
+      gatherer_.ask_again();
+      next_words_ = Clock::now();
+      continue;
+    }
     if (envelope.has_refused()) {
       return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
     }

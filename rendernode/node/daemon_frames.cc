@@ -63,6 +63,7 @@ void Daemon::hand_on_waiting() {
 }
 
 bool Daemon::handed_on(const FrameEvent& event) {
+  if (!event.result->report.error().empty()) return true;
   switch (sink_) {
     case proto::Deployment::DISPLAY:
       if (!outbox_.idle()) return false;
@@ -101,7 +102,8 @@ std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResu
 
 void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
   report.set_node(options_.name);
-  if (const auto hash = hashes_.extract(frame)) report.set_state_hash(hash.mapped());
+  const auto hash = hashes_.extract(frame);
+  if (hash && report.error().empty()) report.set_state_hash(hash.mapped());
   proto::Envelope ready;
   ready.mutable_ready()->set_frame(frame);
   *ready.mutable_ready()->mutable_report() = std::move(report);

@@ -70,38 +70,35 @@ void RenderThread::loop(Renderer& renderer) {
       continue;
     }
     if (!renderer.finished(20ms)) continue;
-    say({FrameEvent::Kind::kDrawn, under_way_.front().frame, {}, {}});
+    say({FrameEvent::Kind::kDrawn, under_way_.front(), {}, {}});
     if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, std::move(*job));
     finish(renderer);
   }
 }
 
-// A state that cannot be drawn changes nothing: the frame shows the last one, and its report says so.
+// A frame whose state cannot be drawn is ready without images; its report says why, and its modules keep what they show.
 void RenderThread::begin(Renderer& renderer, DrawJob job) {
   ++pending_;
-  UnderWay frame{job.frame, {}};
-  if (const Status status = renderer.set_state(*job.state, *job.assets); !status) {
-    log::error("frame {}: {}; the last state stays", job.frame, status.error().message());
-    frame.warnings.push_back(status.error().message());
-  }
   FrameOptions options;
   options.buffers.bits = job.state->buffers();
   options.time_modules = job.time_modules;
   options.reuse = !job.time_modules;
-  if (const Status drawn = renderer.draw(options); !drawn) {
-    log::error("frame {}: {}", job.frame, drawn.error().message());
-    FrameResult nothing;
-    nothing.report.add_warning(drawn.error().message());
-    say({FrameEvent::Kind::kDrawn, job.frame, {}, {}});
-    return say({FrameEvent::Kind::kReady, job.frame, std::move(nothing), {}});
+  Status drawn = renderer.set_state(*job.state, *job.assets);
+  if (drawn) drawn = renderer.draw(options);
+  if (drawn) {
+    under_way_.push_back(job.frame);
+    return;
   }
-  under_way_.push_back(std::move(frame));
+  log::error("frame {}: {}", job.frame, drawn.error().message());
+  FrameResult nothing;
+  nothing.report.set_error(drawn.error().message());
+  say({FrameEvent::Kind::kDrawn, job.frame, {}, {}});
+  say({FrameEvent::Kind::kReady, job.frame, std::move(nothing), {}});
 }
 
 void RenderThread::finish(Renderer& renderer) {
   FrameResult result = renderer.collect();
-  for (auto& warning : under_way_.front().warnings) result.report.add_warning(std::move(warning));
-  const std::uint64_t frame = under_way_.front().frame;
+  const std::uint64_t frame = under_way_.front();
   under_way_.pop_front();
   say({FrameEvent::Kind::kReady, frame, std::move(result), {}});
 }

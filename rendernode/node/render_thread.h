@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,11 +59,7 @@ class RenderThread {
   void finish(Renderer& renderer);
   void say(FrameEvent event);
 
-  struct UnderWay {
-    std::uint64_t frame = 0;
-    std::vector<std::string> warnings;
-  };
-  std::deque<UnderWay> under_way_;
+  std::deque<std::uint64_t> under_way_;  // frames submitted and not yet collected
   wire::Mailbox<DrawJob> jobs_{8};
   wire::Mailbox<FrameEvent> events_{64};
   std::atomic<bool> stop_{false}, ended_{false};

@@ -1,4 +1,4 @@
-// Sample sets of the sphere method: points in a spherical shell (seeds/001, Algorithms 3 and 4).
+// Sample sets of the sphere method: points in a spherical shell (Doronin et al., WSCG 2017, Algorithms 3 and 4).
 #pragma once
 
 #include <cstdint>

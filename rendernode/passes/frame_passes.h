@@ -1,4 +1,4 @@
-// Submits the six passes of a frame (seeds/001, section 7) for all modules of the node at once.
+// Submits the six passes of a frame (Doronin et al., WSCG 2017, section 7) for all modules of the node at once.
 #pragma once
 
 #include <map>

@@ -85,6 +85,7 @@ GpuModules upload_modules(const DisplayCalibration& display, const std::vector<s
   for (const auto k : modules) {
     const bool table = std::holds_alternative<PinholeMap>(display.modules[k].map);
     params.push_back(module_params(display, display.modules[k], table ? static_cast<int>(tabulated.size()) : -1));
+    params.back().tangential.z = static_cast<float>(k);  // noise is the module's own, whichever node draws it
     if (table) tabulated.push_back(k);
   }
   params.resize(MODULES_PER_NODE);

@@ -26,7 +26,7 @@ mat3 random_rotation(vec3 u) {
               x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
 }
 
-mat3 rotation_of_pixel(uvec2 pixel, uint layer, uint seed) {
-  uvec3 h = pcg3d(uvec3(pixel, layer + seed * 4096u));
+mat3 rotation_of_pixel(uvec2 pixel, uint module_number, uint seed) {
+  uvec3 h = pcg3d(uvec3(pixel, module_number + seed * 4096u));
   return random_rotation(vec3(h >> 8u) * (1.0 / 16777216.0));
 }

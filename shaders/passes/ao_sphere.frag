@@ -1,4 +1,4 @@
-// Pass 3, ambient occlusion by samples in a spherical shell (seeds/001, Algorithm 2), in the light-field form:
+// Pass 3, ambient occlusion by samples in a spherical shell (Doronin et al., WSCG 2017, Algorithm 2), in the light-field form:
 // a sample counts as hidden if the surface stored at its own pixel is in front of it (larger physical z).
 #version 450 core
 #include "shared/bindings.glsl"
@@ -24,16 +24,19 @@ vec3 physical_from_world(vec3 p) {
               dot(frame.physical_from_world_2, vec4(p, 1.0)));
 }
 
-// Position stored at a point of the image: between four pixels that all have a surface, else that of the pixel it lies in. A sample
-// of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
+// Position stored at a point of the image: on the surface through four pixels where all of them have one, else that of the pixel it
+// lies in. A sample of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
 vec4 surface_at(vec2 pixel) {
-  vec2 from_centre = pixel - 0.5;
-  ivec3 at = ivec3(floor(from_centre), layer);
-  vec2 share = fract(from_centre);
+  ivec2 most = textureSize(positions, 0).xy - 2;
+  vec4 nearest = texelFetch(positions, ivec3(pixel, layer), 0);
+  if (any(lessThan(most, ivec2(0)))) return nearest;
+  ivec2 first = clamp(ivec2(floor(pixel - 0.5)), ivec2(0), most);  // at the border the surface goes on straight for half a pixel
+  vec2 share = pixel - 0.5 - vec2(first);
+  ivec3 at = ivec3(first, layer);
   vec4 above = mix(texelFetch(positions, at, 0), texelFetch(positions, at + ivec3(1, 0, 0), 0), share.x);
   vec4 below = mix(texelFetch(positions, at + ivec3(0, 1, 0), 0), texelFetch(positions, at + ivec3(1, 1, 0), 0), share.x);
   vec4 surface = mix(above, below, share.y);
-  return surface.w > 0.9999 ? surface : texelFetch(positions, ivec3(pixel, layer), 0);
+  return abs(surface.w - 1.0) < 1e-4 ? surface : nearest;
 }
 
 bool is_hidden(ModuleParams m, vec3 s_in_world) {
@@ -48,7 +51,7 @@ void main() {
   out_hidden = -1.0;
   if (p.w == 0.0) return;
   ModuleParams m = modules[layer];
-  mat3 turn = rotation_of_pixel(uvec2(gl_FragCoord.xy), uint(layer), uint(ao.radii.w));
+  mat3 turn = rotation_of_pixel(uvec2(gl_FragCoord.xy), uint(m.tangential.z), uint(ao.radii.w));
   int count = int(ao.radii.z);
   float radius = ao.radii.x;
   float most = 0.0;

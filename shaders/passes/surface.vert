@@ -55,10 +55,10 @@ void main() {
   uv = vec2(dot(material.uv_transform_0.xyz, vec3(uv_in, 1.0)), dot(material.uv_transform_1.xyz, vec3(uv_in, 1.0)));
   texture_layer = material.uv_transform_0.w;
 #endif
-  // A vertex without a pixel is put out of sight together with its triangle: behind everything, w > 0.
+  // A vertex without a pixel takes its triangle out of sight: what clipping leaves of it is a sliver at the other corners.
   if (pixel.z == 0.0 || !(s.z > 0.0)) {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
-    gl_ClipDistance[0] = -1.0;
+    gl_ClipDistance[0] = -1e30;
     return;
   }
   gl_ClipDistance[0] = 1.0;

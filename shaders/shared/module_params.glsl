@@ -14,5 +14,5 @@ struct ModuleParams {
   vec4 pinhole_2;
   vec4 focal_principal;    // focal_u, focal_v, principal_u, principal_v (px)
   vec4 distortion;         // k1, k2, k3, square of the largest radius that can be inverted
-  vec4 tangential;         // p1, p2; zw unused
+  vec4 tangential;         // p1, p2; z: number of the module in the display; w unused
 };
