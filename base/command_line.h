@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "base/result.h"
 
@@ -24,5 +25,8 @@ int wrong_use(const Error& error);
 // A subcommand with the function that does it, called once its options are parsed; its answer goes into `exit_code`.
 CLI::App* add_command(CLI::App& app, const char* name, const char* description, int& exit_code,
                       std::function<int()> run);
+
+// --log-level, one of those that start_log() knows.
+CLI::Option* add_log_level(CLI::App& app, std::string& level);
 
 }  // namespace lfd

@@ -7,7 +7,7 @@ namespace lfd {
 
 class StopSignals {
  public:
-  // Blocks them in this thread and in those it starts from now on: make one first thing in main.
+  // Blocks them in this thread and in those it starts from now on: make one before anything starts a thread.
   StopSignals();
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;

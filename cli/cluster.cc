@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <iostream>
 #include <mutex>
-#include <set>
 
 #include "base/log.h"
 
@@ -33,7 +32,8 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   std::vector<std::string> command{program("lfd-controller"), options.deployment, "--print-endpoint"};
   add_option(command, "--scene", options.scene);
   add_option(command, "--display", options.display);
-  if (!options.roi.empty()) command.push_back("--roi=" + options.roi);  // it may begin with a minus
+  if (!options.roi.empty())
+    command.push_back(fmt::format("--roi={}", fmt::join(options.roi, ",")));  // it may begin with a minus
   add_option(command, "--plan", options.plan);
   add_option(command, "--only-modules", fmt::format("{}", fmt::join(options.modules, ",")));
   add_option(command, "--log-level", options.log_level);
@@ -41,16 +41,6 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   if (options.no_ao) command.push_back("--no-ao");
   if (options.idle) command.push_back("--idle");
   return command;
-}
-
-Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment) {
-  std::set<int> wanted;
-  for (const std::string& text : options.modules) {
-    auto range = parse_module_range(text, static_cast<int>(deployment.display.modules.size()));
-    if (!range) return range.error().within("--module");
-    wanted.insert(range->begin(), range->end());
-  }
-  return wanted;
 }
 
 // What a process had to say about its end: its last error.
@@ -63,6 +53,23 @@ std::string last_words(const Process& process) {
 
 }  // namespace
 
+Result<Deployment> load_deployment(const ClusterOptions& options) {
+  DeploymentOverrides overrides;
+  if (!options.scene.empty()) overrides.scene = options.scene;
+  if (!options.display.empty()) overrides.display = options.display;
+  return load_deployment(options.deployment, overrides);
+}
+
+Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment) {
+  std::set<int> wanted;
+  for (const std::string& text : options.modules) {
+    auto range = parse_module_range(text, static_cast<int>(deployment.display.modules.size()));
+    if (!range) return range.error().within("--module");
+    wanted.insert(range->begin(), range->end());
+  }
+  return wanted;
+}
+
 Status Cluster::add(const ClusterOptions& options, const std::string& name, std::vector<std::string> command) {
   Process::Options process{.name = name, .command = std::move(command), .on_line = {}, .environment = {}};
   if (!options.quiet) process.on_line = [name](std::string_view line) { print_line(name, line); };
@@ -72,11 +79,8 @@ Status Cluster::add(const ClusterOptions& options, const std::string& name, std:
 }
 
 Result<Cluster> Cluster::start(const ClusterOptions& options) {
-  DeploymentOverrides overrides;
-  if (!options.scene.empty()) overrides.scene = options.scene;
-  if (!options.display.empty()) overrides.display = options.display;
   Cluster cluster;
-  LFD_TRY(cluster.deployment_, load_deployment(options.deployment, overrides));
+  LFD_TRY(cluster.deployment_, load_deployment(options));
   LFD_TRY(const std::set<int> wanted, wanted_modules(options, cluster.deployment_));
 
   LFD_TRY_STATUS(cluster.add(options, "controller", controller_command(options)));
@@ -89,7 +93,8 @@ Result<Cluster> Cluster::start(const ClusterOptions& options) {
   cluster.endpoint_ = line->substr(kEndpointLine.size());
 
   if (!options.images.empty() || cluster.deployment_.message.sink() == proto::Deployment::DISPLAY) {
-    std::vector<std::string> command{program("lfd-display"), "--controller", cluster.endpoint_};
+    std::vector<std::string> command{program("lfd-display"), "--controller", cluster.endpoint_, "--images",
+                                     cluster.deployment_.addresses.images};
     add_option(command, "--out", options.images);
     add_option(command, "--log-level", options.log_level);
     LFD_TRY_STATUS(cluster.add(options, "display", std::move(command)));

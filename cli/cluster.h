@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace lfd {
 struct ClusterOptions {
   std::filesystem::path deployment;
   std::string scene, display;        // files instead of the deployment's; may be empty
-  std::string roi;                   // cx,cy,cz,sx,sy,sz; may be empty
+  std::vector<double> roi;           // cx,cy,cz,sx,sy,sz; may be empty
   std::string plan;                  // "everything", "needed" or empty
   std::vector<std::string> modules;  // numbers and ranges of those that are drawn at all; empty: all
   bool no_ao = false;
@@ -27,6 +28,12 @@ struct ClusterOptions {
   std::string log_level = "info";
   bool quiet = false;  // the lines of the children are not printed, only kept
 };
+
+// The deployment with the files that the options put in its place.
+Result<Deployment> load_deployment(const ClusterOptions& options);
+
+// The modules that the options name; empty: all. Errors name what is no number, or no module of the display.
+Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment);
 
 class Cluster {
  public:

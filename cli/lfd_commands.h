@@ -1,20 +1,25 @@
 // The subcommands of `lfd`, and the options that several of them share.
 #pragma once
 
-#include "cli/cluster.h"
 #include "base/command_line.h"
+#include "cli/cluster.h"
 #include "proto/wire.pb.h"
 
 namespace lfd {
 
-void add_run_command(CLI::App& app, int& exit_code, StopSignals& signals);
-void add_render_command(CLI::App& app, int& exit_code, StopSignals& signals);
-void add_view_command(CLI::App& app, int& exit_code, StopSignals& signals);
+// run, render and view end what they started when a signal comes; ctl and bench just end.
+void add_run_command(CLI::App& app, int& exit_code);
+void add_render_command(CLI::App& app, int& exit_code);
+void add_view_command(CLI::App& app, int& exit_code);
 void add_ctl_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 
 // DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --module, --log-level.
 void add_cluster_options(CLI::App& command, ClusterOptions& options);
+
+// Does what needs a cluster, and answers the exit code. What the options ask and cannot be is found before anything
+// starts: kExitWrongUse.
+int do_with_cluster(const ClusterOptions& options, const std::function<Status(StopSignals& signals)>& what);
 
 struct RenderOptions {
   ClusterOptions cluster;  // its images folder is the output folder

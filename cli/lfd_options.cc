@@ -20,8 +20,11 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
   command.add_option("DEPLOYMENT", options.deployment, "Deployment file (*.textproto)")->required();
   command.add_option("--scene", options.scene, "Show this glTF file instead of the deployment's scene");
   command.add_option("--display", options.display, "Use this calibration file instead of the deployment's");
-  command.add_option("--roi", options.roi,
-                     "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)");
+  command
+      .add_option("--roi", options.roi,
+                  "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)")
+      ->delimiter(',')
+      ->expected(6);
   command
       .add_option("--plan", options.plan,
                   "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need")
@@ -29,9 +32,16 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
   command.add_flag("--no-ao", options.no_ao, "Without ambient occlusion");
   command.add_option("--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)")
       ->delimiter(',');
-  command.add_option("--log-level", options.log_level, "Of all processes: trace, debug, info, warn, error or off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
-      ->capture_default_str();
+  add_log_level(command, options.log_level)->description("Of all processes: trace, debug, info, warn, error or off");
+}
+
+int do_with_cluster(const ClusterOptions& options, const std::function<Status(StopSignals& signals)>& what) {
+  StopSignals signals;
+  const auto deployment = load_deployment(options);
+  if (!deployment) return fail(deployment.error());
+  if (const auto wanted = wanted_modules(options, *deployment); !wanted) return wrong_use(wanted.error());
+  const Status done = what(signals);
+  return done ? kExitDone : fail(done.error());
 }
 
 Result<std::uint32_t> parse_buffers(const std::vector<std::string>& names) {

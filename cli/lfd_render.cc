@@ -121,21 +121,21 @@ Status render(const RenderOptions& options, StopSignals& signals) {
   return done;
 }
 
-void add_render_command(CLI::App& app, int& exit_code, StopSignals& signals) {
+void add_render_command(CLI::App& app, int& exit_code) {
   struct Arguments {
     RenderOptions options;
     std::vector<std::string> buffers;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(app, "render", "Render frames to files and leave", exit_code, [arguments, &signals] {
+  CLI::App* command = add_command(app, "render", "Render frames to files and leave", exit_code, [arguments] {
     const auto buffers = parse_buffers(arguments->buffers);
     if (!buffers) return wrong_use(buffers.error());
     arguments->options.buffers = *buffers;
-    const Status done = render(arguments->options, signals);
-    if (!done) return fail(done.error());
-    std::cout << fmt::format("{} frames in {}\n", arguments->options.frames,
-                             arguments->options.cluster.images.string());
-    return kExitDone;
+    const RenderOptions& options = arguments->options;
+    const int code = do_with_cluster(options.cluster, [&](StopSignals& signals) { return render(options, signals); });
+    if (code == kExitDone)
+      std::cout << fmt::format("{} frames in {}\n", options.frames, options.cluster.images.string());
+    return code;
   });
   RenderOptions& options = arguments->options;
   add_cluster_options(*command, options.cluster);

@@ -37,13 +37,11 @@ Status run(const ClusterOptions& options, StopSignals& signals) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& exit_code, StopSignals& signals) {
+void add_run_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ClusterOptions>();
-  CLI::App* command =
-      add_command(app, "run", "Run a whole cluster on this machine until Ctrl-C", exit_code, [options, &signals] {
-        const Status done = run(*options, signals);
-        return done ? kExitDone : fail(done.error());
-      });
+  CLI::App* command = add_command(app, "run", "Run a whole cluster on this machine until Ctrl-C", exit_code, [options] {
+    return do_with_cluster(*options, [&](StopSignals& signals) { return run(*options, signals); });
+  });
   add_cluster_options(*command, *options);
 }
 

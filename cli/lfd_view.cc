@@ -16,7 +16,7 @@ constexpr auto kViewPatience = std::chrono::minutes(10);
 
 struct Arguments {
   ClusterOptions cluster;
-  std::string eye;  // X,Y,Z
+  std::vector<double> eye;  // X,Y,Z
   std::string out;
   std::string frames;  // folder of lfd render; empty: one frame is rendered
 };
@@ -39,15 +39,13 @@ class TemporaryFolder {
 
 // Lets lfd-display make the picture from a frame's folder.
 Status look(const Arguments& arguments, const fs::path& frame, StopSignals& signals) {
-  DeploymentOverrides overrides;
-  if (!arguments.cluster.display.empty()) overrides.display = arguments.cluster.display;
-  if (!arguments.cluster.scene.empty()) overrides.scene = arguments.cluster.scene;
-  LFD_TRY(const Deployment deployment, load_deployment(arguments.cluster.deployment, overrides));
-  Process::Options options{.name = "view",
-                           .command = {own_folder() / "lfd-display", "view", "--frames-dir", frame, "--display",
-                                       deployment.display_file, "--eye=" + arguments.eye, "--out", arguments.out},
-                           .on_line = [](std::string_view line) { std::cerr << line << std::endl; },
-                           .environment = {}};
+  LFD_TRY(const Deployment deployment, load_deployment(arguments.cluster));
+  Process::Options options{
+      .name = "view",
+      .command = {own_folder() / "lfd-display", "view", "--frames-dir", frame, "--display", deployment.display_file,
+                  fmt::format("--eye={}", fmt::join(arguments.eye, ",")), "--out", arguments.out},
+      .on_line = [](std::string_view line) { std::cerr << line << std::endl; },
+      .environment = {}};
   LFD_TRY(const auto process, Process::start(std::move(options)));
   const auto deadline = Clock::now() + kViewPatience;
   while (Clock::now() < deadline) {
@@ -74,15 +72,18 @@ Status view(const Arguments& arguments, StopSignals& signals) {
 
 }  // namespace
 
-void add_view_command(CLI::App& app, int& exit_code, StopSignals& signals) {
+void add_view_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(app, "view", "Write what a viewer at a place sees", exit_code, [arguments, &signals] {
-    const Status done = view(*arguments, signals);
-    return done ? kExitDone : fail(done.error());
+  CLI::App* command = add_command(app, "view", "Write what a viewer at a place sees", exit_code, [arguments] {
+    if (!(arguments->eye[2] > 0))
+      return wrong_use(Error("--eye: z must be > 0: a viewer stands in front of the screen"));
+    return do_with_cluster(arguments->cluster, [&](StopSignals& signals) { return view(*arguments, signals); });
   });
   add_cluster_options(*command, arguments->cluster);
   command->add_option("--eye", arguments->eye, "X,Y,Z of the eye in physical metres (z: distance from the screen)")
-      ->required();
+      ->required()
+      ->delimiter(',')
+      ->expected(3);
   command->add_option("--out", arguments->out, "PNG file to write")->required();
   command->add_option("--frames-dir", arguments->frames, "Use images that `lfd render` wrote to this folder");
 }

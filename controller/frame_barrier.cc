@@ -35,6 +35,13 @@ void FrameBarrier::ready(const std::string& node, std::uint64_t frame) {
   if (open->waiting.erase(node) > 0) open->ready.push_back(node);
 }
 
+void FrameBarrier::failed(const std::string& node, std::uint64_t frame) {
+  Frame* open = find(frame);
+  if (open == nullptr) return;
+  open->drawing.erase(node);
+  if (open->waiting.erase(node) > 0) open->lost.push_back(node);
+}
+
 void FrameBarrier::gone(const std::string& node) {
   for (Frame& open : frames_) {
     open.drawing.erase(node);

@@ -28,6 +28,8 @@ class FrameBarrier {
   // Events of nodes. What concerns no open frame (it swapped without the node) has no effect. Ready includes drawn.
   void drawn(const std::string& node, std::uint64_t frame);
   void ready(const std::string& node, std::uint64_t frame);
+  // The node could not draw the frame, which waits for it no longer: it is missing there.
+  void failed(const std::string& node, std::uint64_t frame);
 
   // The node died, left or joined anew: no open frame waits for it any more, and it is missing in those it was not
   // ready for.

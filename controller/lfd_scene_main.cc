@@ -1,12 +1,10 @@
 // lfd-scene: makes scenes and says what a scene file contains.
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "base/command_line.h"
 #include "base/log.h"
-#include "base/version.h"
 #include "controller/scene/loaded_scene.h"
 #include "controller/scene/made/made_scenes.h"
 #include "controller/scene/scene_file.h"
@@ -15,24 +13,16 @@
 namespace lfd {
 namespace {
 
-constexpr int kFailed = 1;
-constexpr int kWrongUse = 2;
-
-int fail(const Error& error) {
-  fmt::print(stderr, "lfd-scene: {}\n", error.message());
-  return kFailed;
-}
-
 int list() {
   for (const scene::MadeScene& made : scene::made_scenes()) fmt::print("{:<14} {}\n", made.name, made.description);
-  return EXIT_SUCCESS;
+  return kExitDone;
 }
 
 int make(const std::string& name, std::uint64_t seed, scene::Extent extent, const std::string& out) {
   const Result<LoadedScene> made = scene::make_scene(name, seed, extent);
   if (!made) return fail(made.error());
   const Status written = scene::write_glb(out, made->data);
-  return written ? EXIT_SUCCESS : fail(written.error());
+  return written ? kExitDone : fail(written.error());
 }
 
 void print_lights(const proto::Scene& scene) {
@@ -74,12 +64,11 @@ int info(const std::string& file) {
     fmt::print("{} animation channels, {:g} s\n", loaded->animations.channel_count(), loaded->animations.duration_s());
   }
   for (const std::string& warning : loaded->warnings) fmt::print("warning: {}\n", warning);
-  return EXIT_SUCCESS;
+  return kExitDone;
 }
 
 int run(int argc, char** argv) {
   CLI::App app("Makes the scenes of this project and says what a scene file contains.", "lfd-scene");
-  app.set_version_flag("--version", kVersion);
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use.");
 
@@ -106,11 +95,7 @@ int run(int argc, char** argv) {
                          "animations, and what is not supported.");
   info_command->add_option("file", file, "The .gltf or .glb file")->required();
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? EXIT_SUCCESS : kWrongUse;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   if (*list_command) return list();
   if (*make_command) return make(name, seed, extent, out);
   LFD_CHECK(*info_command, "one of three subcommands was parsed");

@@ -58,6 +58,7 @@ Status Membership::check(const proto::Join& join, const std::string& address) co
 
   const Peer* living = join.role() == proto::DISPLAY ? display() : find(join.name());
   if (living == nullptr || !living->lives()) return {};
+  if (!living->last_heard && living->name == join.name()) return {};  // it may be gone: nothing is heard of it yet
   const bool same = living->address == address || (join.process() != 0 && living->process == join.process());
   if (same && living->name == join.name()) return {};
   return Error(fmt::format("\"{}\" has joined already, as process {}", living->name, living->process));

@@ -48,7 +48,8 @@ class Membership {
   explicit Membership(Rules rules);
 
   // The peer's name, or the reason why it is refused. A peer that joins again from where it lives is accepted again; so
-  // is the same process from a new address (it reconnected).
+  // is the same process from a new address (it reconnected), and whoever comes under the name of one that has not been
+  // welcomed yet.
   Result<std::string> join(const proto::Join& join, const std::string& address);
 
   // The peer has been sent its Welcome: from now on it has to be heard.

@@ -1,10 +1,8 @@
 // lfd-display: the virtual display, and what can be made of the frames that it wrote.
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 
+#include "base/command_line.h"
 #include "base/log.h"
-#include "base/version.h"
 #include "display/contact_sheet.h"
 #include "display/daemon.h"
 #include "display/frame_folder.h"
@@ -16,8 +14,6 @@
 
 namespace lfd::display {
 namespace {
-
-constexpr int kFailed = 1, kWrongUse = 2;
 
 struct ViewOptions {
   std::string frame_folder, display_file, out;
@@ -87,7 +83,6 @@ void add_sheet(CLI::App& app, SheetOptions& options) {
 int main_of_display(int argc, char** argv) {
   CLI::App app(
       "The virtual light-field display: joins a controller, collects whole frames of module images and writes them.");
-  app.set_version_flag("--version", kVersion);
   app.require_subcommand(0, 1);
   DaemonOptions daemon;
   ViewOptions view_options;
@@ -100,26 +95,19 @@ int main_of_display(int argc, char** argv) {
                      ->capture_default_str();
   app.add_option("--out", out, "Write every shown frame to this folder: frame-0000/module-000.color.png, ...");
   app.add_option("--name", daemon.name, "Name of this display")->capture_default_str();
-  app.add_option("--log-level,--log", level, "trace, debug, info, warn, error or off")->capture_default_str();
+  add_log_level(app, level);
   add_view(app, view_options);
   add_sheet(app, sheet_options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongUse;
-  }
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   if (app.get_subcommands().empty() && deployment.empty() && daemon.controller.empty()) {
-    std::fprintf(stderr, "error: where is the controller? Say --controller, or give a deployment file\n");
-    return kWrongUse;
+    return wrong_use(Error("where is the controller? Say --controller, or give a deployment file"));
   }
   start_log(daemon.name, level);
   if (!out.empty()) daemon.out = out;
   const Status status = app.got_subcommand("view")    ? view(view_options)
                         : app.got_subcommand("sheet") ? sheet(sheet_options)
                                                       : run(daemon, deployment, images->count() > 0);
-  if (status) return 0;
-  std::fprintf(stderr, "error: %s\n", status.error().message().c_str());
-  return kFailed;
+  return status ? kExitDone : fail(status.error());
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include "proto/deployment_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -86,6 +86,17 @@ Check assign_modules(const proto::Deployment& m, bool use_lists, int module_coun
   return std::nullopt;
 }
 
+bool has_wildcard(std::string_view endpoint) {
+  return endpoint.starts_with("tcp://*:") || endpoint.starts_with("tcp://0.0.0.0:") ||
+         endpoint.starts_with("tcp://[::]:");
+}
+
+// Reached from this machine alone.
+bool is_local(std::string_view endpoint) {
+  return !endpoint.starts_with("tcp://") || endpoint.starts_with("tcp://127.") ||
+         endpoint.starts_with("tcp://localhost:") || endpoint.starts_with("tcp://[::1]:");
+}
+
 Check read_addresses(const proto::Deployment::Addresses& m, Addresses& addresses) {
   std::map<std::string, std::string> seen;
   for (const auto& [field, text, address] :
@@ -94,10 +105,22 @@ Check read_addresses(const proto::Deployment::Addresses& m, Addresses& addresses
     if (text->empty()) continue;
     const std::string road = fmt::format("addresses: {}", field);
     if (auto status = validate_endpoint(*text); !status) return Fault{road, status.error().within(road)};
+    if (has_wildcard(*text)) {
+      return Fault{road,
+                   Error(fmt::format("{}: \"{}\": peers are told this address: name one interface", road, *text))};
+    }
     if (is_fixed_endpoint(*text) && !seen.emplace(*text, field).second) {
       return Fault{road, Error(fmt::format("{}: \"{}\" is the address of {} already", road, *text, seen[*text]))};
     }
     *address = *text;
+  }
+  if (is_local(addresses.control)) return std::nullopt;
+  for (const auto& [field, address] :
+       {std::pair{"state", &addresses.state}, {"bulk", &addresses.bulk}, {"images", &addresses.images}}) {
+    if (!is_local(*address)) continue;
+    return Fault{"addresses",
+                 Error(fmt::format("addresses: {}: \"{}\" cannot be reached from other machines, as control can", field,
+                                   *address))};
   }
   return std::nullopt;
 }
@@ -168,8 +191,8 @@ Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
   if (auto fault = assign_modules(deployment.message, !overrides.display, module_count, deployment.nodes)) return fault;
   for (const NodeShare& node : deployment.nodes) {
     if (node.modules.size() <= kMaxModulesPerNode) continue;
-    return Fault{"node", Error(fmt::format("node \"{}\": {} modules; a node draws at most {}", node.name, node.modules.size(),
-                                           kMaxModulesPerNode))};
+    return Fault{"node", Error(fmt::format("node \"{}\": {} modules; a node draws at most {}", node.name,
+                                           node.modules.size(), kMaxModulesPerNode))};
   }
   return std::nullopt;
 }

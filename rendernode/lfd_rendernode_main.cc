@@ -31,7 +31,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--gpu", a.options.gpu, "Number of the GPU (--list-gpus); default: the deployment's, else the first that works");
   app.add_option("--out", a.options.out, "Folder for images where the deployment's sink is FILES; default: the deployment's");
   app.add_flag("--list-gpus", a.list_gpus, "List the GPUs that EGL offers, and end");
-  app.add_option("--log-level", a.log_level, "trace, debug, info, warn, error or off")->capture_default_str();
+  add_log_level(app, a.log_level);
 }
 
 int list() {

@@ -53,6 +53,7 @@ Status Daemon::run(StopSignals& signals) {
   } else {
     loader_.start(deployment.message.scene().made(), {}, 0);
   }
+  Status first_scene;
   next_pulse_ = Clock::now();
   while (!end_) {
     wire::wait({&links_.control, &links_.bulk}, {signals.descriptor(), loader_.descriptor()}, wake_at() - Clock::now());
@@ -61,7 +62,8 @@ Status Daemon::run(StopSignals& signals) {
     while (const auto message = links_.bulk.receive()) {
       if (stage_.has_scene()) serve_asset(links_.bulk, *message, stage_.assets());
     }
-    if (auto arrival = loader_.take()) LFD_TRY_STATUS(take_scene(*std::move(arrival), now));
+    if (auto arrival = loader_.take()) first_scene = take_scene(*std::move(arrival), now);
+    if (!first_scene) end_ = first_scene.error().message();
     if (const auto signal = signals.take()) end_ = fmt::format("signal {}", *signal);
     tick(now);
   }
@@ -69,9 +71,12 @@ Status Daemon::run(StopSignals& signals) {
   proto::Envelope quit;
   quit.mutable_quit()->set_reason(*end_);
   publish(quit);
+  for (const Peer* peer : members_.peers()) {
+    if (peer->lives() && !peer->last_heard) send(peer->address, quit);  // it does not hear the state channel yet
+  }
   links_.state.linger(kLastWords);
   links_.control.linger(kLastWords);
-  return {};
+  return first_scene;
 }
 
 void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
@@ -94,8 +99,7 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
       return;
     case proto::Envelope::kReady:
       if (peer == nullptr) return;
-      log_.reported(envelope.ready().frame(), envelope.ready().report());
-      return barrier_.ready(peer->name, envelope.ready().frame());
+      return take_ready(*peer, envelope.ready());
     case proto::Envelope::kShown:
       if (peer != nullptr && peer->role == proto::DISPLAY) log_.shown(envelope.shown().frame(), now);
       return;

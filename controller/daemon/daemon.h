@@ -46,6 +46,7 @@ class Daemon {
     std::uint64_t first = 0;
     std::uint64_t count = 0;
     bool time_modules = false;
+    std::string error;  // of the first frame that a node could not draw
   };
 
   Daemon(Options options, Links links, std::unique_ptr<wire::Context> context, Stage stage, Assignment assignment);
@@ -74,6 +75,7 @@ class Daemon {
   void advance(Clock::time_point now);
   bool may_begin(Clock::time_point now) const;
   void begin_frame(Clock::time_point now);
+  void take_ready(const Peer& peer, const proto::Ready& ready);
   void finish(const FrameBarrier::Swap& swap, Clock::time_point now);
   void answer_frames_asked(Clock::time_point now);
   bool has_display_sink() const;

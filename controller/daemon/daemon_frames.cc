@@ -48,6 +48,15 @@ void Daemon::begin_frame(Clock::time_point now) {
   log::debug("frame {}: begin", frame);
 }
 
+void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
+  log_.reported(ready.frame(), ready.report());
+  if (ready.report().error().empty()) return barrier_.ready(peer.name, ready.frame());
+  barrier_.failed(peer.name, ready.frame());
+  const std::string error = fmt::format("node \"{}\": frame {}: {}", peer.name, ready.frame(), ready.report().error());
+  log::error("{}", error);
+  if (asked_ && ready.frame() >= asked_->first && asked_->error.empty()) asked_->error = error;
+}
+
 void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   const std::vector<std::uint32_t> stale = modules_without(assignment_, swap.ready);
   proto::Envelope envelope;
@@ -74,13 +83,14 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   const bool stuck = barrier_.in_flight() == 0 && std::ranges::all_of(assignment_, [&](const auto& entry) {
                        return entry.second.empty() || members_.find(entry.first)->phase == Phase::kOut;
                      });
-  const bool complete = swapped && (shown || never_shown);
+  const bool failed = swapped && !asked_->error.empty();
+  const bool complete = swapped && (shown || never_shown || failed);
   if (!complete && !stuck) return;
 
   proto::Envelope envelope;
   proto::Reply& reply = *envelope.mutable_reply();
   reply.set_id(asked_->id);
-  if (!complete) reply.set_error("every node that draws is out");
+  reply.set_error(complete ? asked_->error : "every node that draws is out");
   for (const proto::FrameReport& report : log_.reports(asked_->first, asked_->count)) *reply.add_frame() = report;
   send(asked_->client, envelope);
   if (!complete) pacing_.ask_for(0);

@@ -9,6 +9,9 @@ namespace lfd::controller {
 
 void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   const proto::Join& join = message.envelope.join();
+  const Peer* known = members_.at(message.peer);
+  const bool asks_again = known != nullptr && known->name == join.name() && !known->last_heard;
+  const std::string images_before = images_endpoint();
   const Result<std::string> name = members_.join(join, message.peer);
   if (!name) {
     log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), name.error().message());
@@ -17,9 +20,10 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
     return send(message.peer, refused);
   }
   barrier_.gone(*name);  // whatever it drew before it joined anew is lost
-  log::info("\"{}\" joins (process {})", *name, join.process());
+  if (!asks_again) log::info("\"{}\" joins (process {})", *name, join.process());
   const Peer& peer = *members_.find(*name);
-  if (peer.role == proto::DISPLAY) publish_images_endpoint();
+  const bool moved = !asks_again || images_endpoint() != images_before;
+  if (peer.role == proto::DISPLAY && moved) publish_images_endpoint();
   if (stage_.has_scene()) welcome(peer, now);
 }
 

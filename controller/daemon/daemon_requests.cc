@@ -69,7 +69,8 @@ Result<bool> Daemon::start_frames(const wire::Message& message) {
                        .id = request.id(),
                        .first = barrier_.next_frame(),
                        .count = frames.count(),
-                       .time_modules = frames.time_modules()};
+                       .time_modules = frames.time_modules(),
+                       .error = {}};
   pacing_.ask_for(frames.count());
   if (const auto update = stage_.set_buffers(frames.buffers())) publish(*update);
   return true;

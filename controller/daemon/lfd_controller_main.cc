@@ -38,7 +38,7 @@ void add_options(CLI::App& app, Arguments& a) {
       ->delimiter(',');
   app.add_flag("--idle", a.options.idle, "Draw no frame until a client asks for frames");
   app.add_flag("--print-endpoint", a.print_endpoint, "Print the control endpoint on standard output, once it is bound");
-  app.add_option("--log-level", a.log_level, "trace, debug, info, warn, error or off")->capture_default_str();
+  add_log_level(app, a.log_level);
 }
 
 void set_vector(proto::Vector& to, double x, double y, double z) {

@@ -174,7 +174,7 @@ class Node {
 
 TEST_F(DisplayProcess, WritesWholeFramesSaysSoAndQuits) {
   const fs::path out = folder_ / "out";
-  Child display({"--controller", control_.endpoint(), "--out", out.string(), "--log", "warn"});
+  Child display({"--controller", control_.endpoint(), "--out", out.string(), "--log-level", "warn"});
   Node node(context_, welcome());
   for (const std::uint64_t frame : {0, 1, 2}) {
     node.send_frame(frame, static_cast<std::uint8_t>(10 + frame));
@@ -220,7 +220,7 @@ TEST_F(DisplayProcess, WrittenFramesBecomeViewsAndSheets) {
 
 TEST_F(DisplayProcess, FramesGoOnWhereTheFolderCannotBeWritten) {
   ASSERT_TRUE(write_file(folder_ / "file", "in the way"));
-  Child display({"--controller", control_.endpoint(), "--out", (folder_ / "file").string(), "--log", "off"});
+  Child display({"--controller", control_.endpoint(), "--out", (folder_ / "file").string(), "--log-level", "off"});
   Node node(context_, welcome());
   for (const std::uint64_t frame : {7, 8}) {
     node.send_frame(frame, 1);
@@ -233,8 +233,8 @@ TEST_F(DisplayProcess, FramesGoOnWhereTheFolderCannotBeWritten) {
 
 TEST_F(DisplayProcess, EndsOnSignalsWhileTheControllerIsAwayOrHalfwayThroughAFrame) {
   for (const int number : {SIGTERM, SIGINT}) {
-    Child lonely({"--controller", "tcp://127.0.0.1:1", "--log", "off"});
-    Child joined({"--controller", control_.endpoint(), "--log", "off"});
+    Child lonely({"--controller", "tcp://127.0.0.1:1", "--log-level", "off"});
+    Child joined({"--controller", control_.endpoint(), "--log-level", "off"});
     Node node(context_, welcome());
     proto::Image image;
     image.set_width_px(kSize.width);
@@ -249,14 +249,14 @@ TEST_F(DisplayProcess, EndsOnSignalsWhileTheControllerIsAwayOrHalfwayThroughAFra
 }
 
 TEST_F(DisplayProcess, JoinsAgainWhereTheControllerFellSilent) {
-  Child display({"--controller", control_.endpoint(), "--log", "off"});
+  Child display({"--controller", control_.endpoint(), "--log-level", "off"});
   welcome();
   expect(control_, [](const auto& e) { return e.has_join(); });  // six silent heartbeats later
   welcome();
 }
 
 TEST_F(DisplayProcess, JoinsAgainWhereANewControllerDoesNotKnowIt) {
-  Child display({"--controller", control_.endpoint(), "--log", "off"});
+  Child display({"--controller", control_.endpoint(), "--log-level", "off"});
   welcome();
   proto::Envelope stranger;
   stranger.mutable_refused()->set_reason("not a member of this cluster");
@@ -265,13 +265,13 @@ TEST_F(DisplayProcess, JoinsAgainWhereANewControllerDoesNotKnowIt) {
 }
 
 TEST_F(DisplayProcess, FailsWithTheReasonWhereItIsRefusedOrItsEndpointIsTaken) {
-  Child refused({"--controller", control_.endpoint(), "--log", "off"});
+  Child refused({"--controller", control_.endpoint(), "--log-level", "off"});
   const auto join = expect(control_, [](const auto& e) { return e.has_join(); });
   proto::Envelope envelope;
   envelope.mutable_refused()->set_reason("another calibration");
   ASSERT_TRUE(control_.send_to(join.peer, envelope));
   EXPECT_EQ(refused.exit_code(), 1);
-  Child clash({"--controller", control_.endpoint(), "--images", control_.endpoint(), "--log", "off"});
+  Child clash({"--controller", control_.endpoint(), "--images", control_.endpoint(), "--log-level", "off"});
   EXPECT_EQ(clash.exit_code(), 1);
   Child wrong({"--no-such-option"});
   EXPECT_EQ(wrong.exit_code(), 2);

@@ -168,14 +168,34 @@ TEST(LfdView, WritesWhatAViewerSees) {
   EXPECT_TRUE(std::filesystem::exists(picture));
 }
 
+TEST(Lfd, ItsProgramsSayWhatWasMeantByAWrongOption) {
+  for (const char* program : {"lfd-display", "lfd-scene", "lfd-controller", "lfd-rendernode"}) {
+    const auto process = start_program(program, {"--versoin"});
+    const auto exit = process->wait(kPatience);
+    ASSERT_TRUE(exit);
+    EXPECT_EQ(exit->code, 2) << program;
+    const auto line = process->wait_for_line("error: ", kPatience);
+    ASSERT_TRUE(line) << program;
+    EXPECT_THAT(*line, HasSubstr("did you mean --version?")) << program;
+  }
+}
+
 TEST(Lfd, ExitsWithTwoOnWrongUse) {
+  const Workbench bench;
+  const std::string wall = bench.deployment(kQuick);
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"rendr"},
                                                     {"render"},
                                                     {"run", "--modul", "3"},
-                                                    {"render", "x", "--out", "y", "--buffers", "colour"}}) {
+                                                    {"render", "x", "--out", "y", "--buffers", "colour"},
+                                                    {"run", wall, "--roi", "1,2"},
+                                                    {"run", wall, "--module", "99"},
+                                                    {"run", wall, "--module", "x"},
+                                                    {"run", wall, "--log-level", "loud"},
+                                                    {"view", wall, "--out", "y", "--eye", "0,0"},
+                                                    {"view", wall, "--out", "y", "--eye", "0,0,-1"}}) {
     const auto exit = start_program("lfd", arguments)->wait(kPatience);
     ASSERT_TRUE(exit);
-    EXPECT_EQ(exit->code, 2) << arguments.front();
+    EXPECT_EQ(exit->code, 2) << testing::PrintToString(arguments);
   }
 }
 

@@ -46,7 +46,7 @@ struct Door {
 
 const std::vector<Door>& doors() {
   static const std::vector<Door> kDoors{
-      {{"CLI/"}, {"base/command_line.h", "controller/lfd_scene_main.cc", "display/lfd_display_main.cc"}},
+      {{"CLI/"}, {"base/command_line.h"}},
       {{"spdlog/"}, {"base/log."}},
       {{"xxhash.h"}, {"base/hash.cc"}},
       {{"zmq"}, {"proto/wire/"}},

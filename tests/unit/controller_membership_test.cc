@@ -61,8 +61,16 @@ TEST(Membership, RefusesWithTheReason) {
 TEST(Membership, RefusesANameThatLives) {
   Membership members = two_nodes();
   ASSERT_TRUE(members.join(join_of("left", 11), "A"));
+  members.welcomed("left", kStart);
   EXPECT_THAT(members.join(join_of("left", 12), "B").error().message(), HasSubstr("joined already, as process 11"));
   EXPECT_EQ(members.find("left")->address, "A");
+}
+
+TEST(Membership, TakesTheNewestOfANameThatHasNotBeenWelcomed) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left", 11), "A"));
+  ASSERT_TRUE(members.join(join_of("left", 12), "B"));
+  EXPECT_EQ(members.find("left")->process, 12u);
 }
 
 TEST(Membership, TakesOneDisplayAtATime) {

@@ -25,7 +25,7 @@ constexpr std::string_view kText =
     "node { name: \"a\"\n modules: \"0-2\"\n modules: \"4\" }\n"                     // 11, 12, 13
     "node {\n name: \"b\"\n modules: \"3\" }\n"                                      // 14, 15, 16
     "sink: FILES\n"                                                                  // 17
-    "addresses {\n control: \"tcp://127.0.0.1:5550\"\n state: \"tcp://*:5551\" }\n"  // 18, 19, 20
+    "addresses {\n control: \"tcp://127.0.0.1:5550\"\n state: \"tcp://127.0.0.1:5551\" }\n"  // 18, 19, 20
     "pacing {\n deadline_ms: 100\n heartbeat_ms: 250 }\n";                           // 21, 22, 23
 
 // The folder of one test with a display of eight modules in it, gone when the test ends.
@@ -124,7 +124,9 @@ TEST_F(DeploymentFile, EveryBadFieldIsNamedWithItsLine) {
       {"samples: 8", "samples: 1000", "9: render: ao.samples: 1000"},
       {"sink: FILES", "sink: 7", "17: "},
       {"tcp://127.0.0.1:5550", "127.0.0.1:5550", "19: addresses: control: "},
-      {"tcp://*:5551", "tcp://127.0.0.1:5550",
+      {"tcp://127.0.0.1:5551", "tcp://*:5551", "20: addresses: state: \"tcp://*:5551\": peers are told"},
+      {"tcp://127.0.0.1:5550", "tcp://10.0.0.1:5550", "18: addresses: state: \"tcp://127.0.0.1:5551\" cannot be"},
+      {"tcp://127.0.0.1:5551", "tcp://127.0.0.1:5550",
        "20: addresses: state: \"tcp://127.0.0.1:5550\" is the address of control already"},
       {"deadline_ms: 100", "deadline_ms: -1", "22: pacing: deadline_ms: "},
       {"heartbeat_ms: 250", "heartbeat_ms: 1", "23: pacing: heartbeat_ms: "},

@@ -16,6 +16,7 @@
 #include "base/file.h"
 #include "controller/scene/loaded_scene.h"
 #include "proto/mesh_arrays.h"
+#include "proto/pictures/png.h"
 
 namespace lfd::test {
 
@@ -40,8 +41,8 @@ inline std::string base64(const std::string& bytes) {
   return text;
 }
 
-// A PNG file of one white pixel; nothing decodes it.
-inline std::string tiny_png() { return std::string("\x89PNG\r\n\x1A\n", 8) + "the rest is not looked at"; }
+// A PNG file of one black pixel.
+inline std::string tiny_png() { return *encode_png(black_picture(1, 1)); }
 
 // `root` is the file's JSON, to be changed at will; `binary` its only buffer.
 struct GltfMaker {

@@ -126,7 +126,13 @@ const Case kCases[] = {
      [](GltfMaker& m) {
        m.root["images"] = {{{"bufferView", m.add_view("GIF89a")}, {"mimeType", "image/png"}}};
      },
-     "image 0: is neither PNG nor JPEG"},
+     "image 0: neither PNG nor JPEG"},
+    {"ImageThatCannotBeDecoded",
+     [](GltfMaker& m) {
+       const std::string cut = tiny_png().substr(0, 40);
+       m.root["images"] = {{{"bufferView", m.add_view(cut)}, {"mimeType", "image/png"}}};
+     },
+     "material 0: baseColorTexture: texture 0: image 0: "},
     {"ImageViewBeyondBuffer", [](GltfMaker& m) { m.root["bufferViews"][5]["byteLength"] = 1000000; },
      "image 0: bufferView 5"},
     {"ImageMissing",

@@ -5,22 +5,18 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <string_view>
 
 #include "base/log.h"
 #include "controller/scene/gltf/accessors.h"
 #include "controller/scene/limits.h"
+#include "proto/pictures/decode.h"
 
 namespace lfd::scene::gltf {
 namespace {
 
 constexpr int kNearest = 9728;  // GL_NEAREST, as samplers write it
 
-bool is_png_or_jpeg(std::string_view bytes) {
-  return bytes.starts_with("\x89PNG\r\n\x1A\n") || bytes.starts_with("\xFF\xD8\xFF");
-}
-
-// The encoded bytes of an image.
+// The encoded bytes of an image, known to decode: a picture that a node could not read is refused here, by name.
 Result<std::string> picture_of(const Document& document, const tinygltf::Image& image) {
   std::string bytes(image.image.begin(), image.image.end());
   if (image.bufferView >= 0) {
@@ -34,7 +30,7 @@ Result<std::string> picture_of(const Document& document, const tinygltf::Image& 
   }
   if (bytes.size() > kMaxPictureBytes)
     return Error(fmt::format("{} bytes; at most {} are read", bytes.size(), kMaxPictureBytes));
-  if (!is_png_or_jpeg(bytes)) return Error("is neither PNG nor JPEG");
+  if (const auto decoded = decode_picture(bytes); !decoded) return decoded.error();
   return bytes;
 }
 
