@@ -1,6 +1,7 @@
 // lfd view: what a viewer in front of the display sees.
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -24,7 +25,11 @@ struct Arguments {
 // A folder that goes with the object.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("lfd-view-{}", ::getpid())) {}
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "lfd-view-XXXXXX").string();
+    LFD_CHECK(::mkdtemp(pattern.data()) != nullptr, "a temporary folder can be made");
+    path_ = pattern;
+  }
   ~TemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
