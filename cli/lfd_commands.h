@@ -35,10 +35,4 @@ Status render(const RenderOptions& options, StopSignals& signals);
 // "color,position,..." as the bits of RenderOptions::buffers. Errors name the one that is unknown and what was meant.
 Result<std::uint32_t> parse_buffers(const std::vector<std::string>& names);
 
-// The image file's name: module-000.color.png, module-000.position.exr.
-std::string image_name(int module, proto::BufferKind buffer);
-
-// The folder of one frame: FOLDER/frame-0000.
-std::filesystem::path frame_folder(const std::filesystem::path& folder, std::uint64_t frame);
-
 }  // namespace lfd

@@ -58,13 +58,4 @@ Result<std::uint32_t> parse_buffers(const std::vector<std::string>& names) {
   return bits;
 }
 
-std::string image_name(int module, proto::BufferKind buffer) {
-  return fmt::format("module-{:03}.{}.{}", module, buffer_names()[static_cast<std::size_t>(buffer)],
-                     buffer == proto::COLOR ? "png" : "exr");
-}
-
-std::filesystem::path frame_folder(const std::filesystem::path& folder, std::uint64_t frame) {
-  return folder / fmt::format("frame-{:04}", frame);
-}
-
 }  // namespace lfd

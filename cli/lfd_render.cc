@@ -7,6 +7,7 @@
 #include "cli/control_client.h"
 #include "cli/lfd_commands.h"
 #include "cli/report.h"
+#include "proto/frame_files.h"
 
 namespace lfd {
 namespace {
@@ -78,11 +79,11 @@ Status check_images(const RenderOptions& options, const Cluster& cluster,
   std::string missing;
   int count = 0;
   for (const proto::FrameReport& frame : frames) {
-    const auto folder = frame_folder(options.cluster.images, frame.frame());
     for (const int module : cluster.modules()) {
       for (int buffer = proto::BufferKind_MIN; buffer <= proto::BufferKind_MAX; ++buffer) {
         const bool wanted = buffer == proto::COLOR || (options.buffers >> buffer & 1u) != 0;
-        const auto path = folder / image_name(module, static_cast<proto::BufferKind>(buffer));
+        const auto path = image_path(options.cluster.images, frame.frame(), static_cast<std::uint32_t>(module),
+                                     static_cast<proto::BufferKind>(buffer));
         if (!wanted || std::filesystem::exists(path)) continue;
         if (count++ == 0) missing = path.string();
       }

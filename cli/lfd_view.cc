@@ -8,6 +8,7 @@
 
 #include "base/log.h"
 #include "cli/lfd_commands.h"
+#include "proto/frame_files.h"
 
 namespace lfd {
 namespace fs = std::filesystem;
@@ -64,7 +65,7 @@ Status look(const Arguments& arguments, const fs::path& frame, StopSignals& sign
 
 Status view(const Arguments& arguments, StopSignals& signals) {
   if (!arguments.frames.empty()) {
-    const fs::path first = frame_folder(arguments.frames, 0);
+    const fs::path first = frame_path(arguments.frames, 0);
     return look(arguments, fs::is_directory(first) ? first : fs::path(arguments.frames), signals);
   }
   const TemporaryFolder folder;
@@ -72,7 +73,7 @@ Status view(const Arguments& arguments, StopSignals& signals) {
   render_options.cluster = arguments.cluster;
   render_options.cluster.images = folder.path();
   LFD_TRY_STATUS(render(render_options, signals));
-  return look(arguments, frame_folder(folder.path(), 0), signals);
+  return look(arguments, frame_path(folder.path(), 0), signals);
 }
 
 }  // namespace

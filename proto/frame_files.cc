@@ -50,9 +50,13 @@ PictureF float_picture(const proto::Image& what, std::string_view pixels) {
 
 }  // namespace
 
+std::filesystem::path frame_path(const std::filesystem::path& folder, std::uint64_t frame) {
+  return folder / fmt::format("frame-{:04}", frame);
+}
+
 std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
                                  proto::BufferKind buffer) {
-  return folder / fmt::format("frame-{:04}", frame) / fmt::format("module-{:03}.{}", module, ending(buffer));
+  return frame_path(folder, frame) / fmt::format("module-{:03}.{}", module, ending(buffer));
 }
 
 Status write_image_file(const std::filesystem::path& path, const proto::Image& what, std::string_view pixels) {

@@ -7,6 +7,7 @@
 #include "cli/lfd_commands.h"
 #include "cli/report.h"
 #include "cli/status_table.h"
+#include "proto/frame_files.h"
 
 namespace lfd {
 namespace {
@@ -32,9 +33,9 @@ TEST(Buffers, AreBitsInTheOrderOfTheirKinds) {
 }
 
 TEST(ImageNames, HaveThreeDigitsAndTheBuffersName) {
-  EXPECT_EQ(image_name(0, proto::COLOR), "module-000.color.png");
-  EXPECT_EQ(image_name(17, proto::POSITION), "module-017.position.exr");
-  EXPECT_EQ(frame_folder("out", 12), "out/frame-0012");
+  EXPECT_EQ(image_path("out", 12, 0, proto::COLOR), "out/frame-0012/module-000.color.png");
+  EXPECT_EQ(image_path("out", 12, 17, proto::POSITION), "out/frame-0012/module-017.position.exr");
+  EXPECT_EQ(frame_path("out", 12), "out/frame-0012");
 }
 
 TEST(Report, GivesNumbersBackExactly) {
