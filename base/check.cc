@@ -7,7 +7,8 @@
 namespace lfd {
 
 void check_failed(const char* file, int line, const char* condition, std::string_view why) {
-  std::fprintf(stderr, "%s:%d: check failed: %s: %.*s\n", file, line, condition, static_cast<int>(why.size()), why.data());
+  std::fprintf(stderr, "%s:%d: check failed: %s: %.*s\n", file, line, condition, static_cast<int>(why.size()),
+               why.data());
   std::fflush(stderr);
   std::abort();
 }

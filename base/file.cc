@@ -20,7 +20,8 @@ Result<std::string> read_file(const fs::path& path, std::size_t limit_bytes) {
   if (!fs::is_regular_file(status)) return Error(fmt::format("{}: not a regular file", path.string()));
   const auto size = fs::file_size(path, failure);
   if (failure) return Error(fmt::format("{}: {}", path.string(), failure.message()));
-  if (size > limit_bytes) return Error(fmt::format("{}: {} bytes; at most {} are read", path.string(), size, limit_bytes));
+  if (size > limit_bytes)
+    return Error(fmt::format("{}: {} bytes; at most {} are read", path.string(), size, limit_bytes));
   std::ifstream stream(path, std::ios::binary);
   std::string content(size, '\0');
   if (!stream.read(content.data(), static_cast<std::streamsize>(size))) {

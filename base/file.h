@@ -12,7 +12,8 @@ namespace lfd {
 // Reads a regular file of at most `limit_bytes`.
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit_bytes = std::size_t{1} << 31);
 
-// Writes beside `path`, then renames: a reader sees the old content or the new one, never half. Creates missing folders.
+// Writes beside `path`, then renames: a reader sees the old content or the new one, never half. Creates missing
+// folders.
 Status write_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace lfd

@@ -1,4 +1,5 @@
-// Content hashes: 128-bit XXH3 of bytes, printed as 32 hexadecimal digits. Not cryptographic: it finds equal content, not forgers.
+// Content hashes: 128-bit XXH3 of bytes, printed as 32 hexadecimal digits. Not cryptographic: it finds equal content,
+// not forgers.
 #pragma once
 
 #include <cstddef>

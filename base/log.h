@@ -9,7 +9,8 @@
 
 namespace lfd {
 
-// Starts the log of this process. `who` stands in every line (e.g. "node left"). Level: trace, debug, info, warn, error, off.
+// Starts the log of this process. `who` stands in every line (e.g. "node left"). Level: trace, debug, info, warn,
+// error, off.
 void start_log(std::string_view who, std::string_view level);
 
 namespace log {

@@ -21,6 +21,7 @@ struct Arguments {
   std::string controller;  // empty: the only one that runs
   std::vector<double> roi;
   std::vector<double> physical_roi;
+  std::vector<double> orientation;
   bool whole = false;
   std::string scene;
   std::optional<bool> ao_enabled, ao_blur, ao_symmetric;
@@ -64,13 +65,27 @@ void set_box(proto::Vector& centre, proto::Vector& size, const std::vector<doubl
 }
 
 Status change_roi(const Arguments& arguments) {
-  if (arguments.roi.empty() && arguments.physical_roi.empty() && !arguments.whole) {
+  const bool nothing_given =
+      arguments.roi.empty() && arguments.physical_roi.empty() && arguments.orientation.empty() && !arguments.whole;
+  if (nothing_given) {
     LFD_TRY(const proto::Status status, ask_status(arguments));
     std::cout << roi_text(status.roi());
     return {};
   }
   proto::Request request;
   proto::RegionOfInterest& roi = *request.mutable_roi();
+  if (!arguments.whole) {
+    LFD_TRY(const proto::Status status, ask_status(arguments));
+    *roi.mutable_world_centre() = status.roi().world_centre();
+    *roi.mutable_world_size() = status.roi().world_size();
+    *roi.mutable_world_orientation() = status.roi().world_orientation();
+  }
+  if (!arguments.orientation.empty()) {
+    roi.mutable_world_orientation()->set_w(arguments.orientation[0]);
+    roi.mutable_world_orientation()->set_x(arguments.orientation[1]);
+    roi.mutable_world_orientation()->set_y(arguments.orientation[2]);
+    roi.mutable_world_orientation()->set_z(arguments.orientation[3]);
+  }
   if (!arguments.roi.empty()) set_box(*roi.mutable_world_centre(), *roi.mutable_world_size(), arguments.roi);
   if (!arguments.physical_roi.empty()) {
     set_box(*roi.mutable_physical_centre(), *roi.mutable_physical_size(), arguments.physical_roi);
@@ -174,13 +189,17 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   };
   add("status", "Print what is shown, and who takes part", print_status);
   CLI::App* roi = add("roi", "Change the region of interest, or print it", change_roi);
-  roi->add_option("WORLD", a.roi, "cx,cy,cz,sx,sy,sz: centre and edge lengths in the world, metres")
+  roi->add_option("WORLD", a.roi, "cx,cy,cz,sx,sy,sz: centre and edge lengths in the world, metres (default: as it is)")
       ->delimiter(',')
       ->expected(6);
   roi->add_option("--physical", a.physical_roi, "The same box in physical space (default: fitted to the screen)")
       ->delimiter(',')
       ->expected(6);
-  roi->add_flag("--whole", a.whole, "Show the whole scene");
+  roi->add_option("--orientation", a.orientation,
+                  "w,x,y,z: unit quaternion that turns the box's axes into the world's (default: as it is)")
+      ->delimiter(',')
+      ->expected(4);
+  roi->add_flag("--whole", a.whole, "Show the whole scene, unturned");
   add_ao_options(*add("ao", "Change ambient occlusion; what is not given stays", change_ao), a);
   add("scene", "Show another scene; if it cannot be loaded the old one stays", change_scene)
       ->add_option("FILE", a.scene, "glTF file, as the controller's machine sees it")

@@ -27,7 +27,8 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
       ->expected(6);
   command
       .add_option("--plan", options.plan,
-                  "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need")
+                  "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need; default: the "
+                  "deployment's")
       ->check(CLI::IsMember({"everything", "needed"}));
   command.add_flag("--no-ao", options.no_ao, "Without ambient occlusion");
   command.add_option("--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)")

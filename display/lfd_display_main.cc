@@ -82,7 +82,9 @@ void add_sheet(CLI::App& app, SheetOptions& options) {
 
 int main_of_display(int argc, char** argv) {
   CLI::App app(
-      "The virtual light-field display: joins a controller, collects whole frames of module images and writes them.");
+      "The virtual light-field display: joins a controller, collects whole frames of module images and writes them.",
+      "lfd-display");
+  app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it within 2 s.");
   app.require_subcommand(0, 1);
   DaemonOptions daemon;
   ViewOptions view_options;

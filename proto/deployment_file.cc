@@ -77,7 +77,7 @@ Check assign_listed(const proto::Deployment& m, int module_count, std::vector<No
 }
 
 Check assign_modules(const proto::Deployment& m, bool use_lists, int module_count, std::vector<NodeShare>& nodes) {
-  for (const auto& node : m.node()) nodes.push_back({node.name(), {}, node.gpu()});
+  for (const auto& node : m.node()) nodes.push_back({node.name(), {}, node.has_gpu() ? node.gpu() : -1});
   const bool listed =
       std::any_of(m.node().begin(), m.node().end(), [](const auto& node) { return node.modules_size() > 0; });
   if (listed && use_lists) return assign_listed(m, module_count, nodes);

@@ -21,7 +21,7 @@ inline constexpr int kMaxModulesPerNode = 256;
 struct NodeShare {
   std::string name;          // unique; letters, digits, '.', '-', '_'
   std::vector<int> modules;  // ascending; no module has two nodes; empty: a spare
-  int gpu = 0;
+  int gpu = -1;              // of `lfd-rendernode --list-gpus`; -1: the first that works
 };
 
 struct Pacing {

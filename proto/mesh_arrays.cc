@@ -46,7 +46,8 @@ Result<MeshArrays> mesh_arrays(const proto::Mesh& mesh) {
   LFD_TRY_STATUS(check_length("normal", arrays.normal.size(), vertices, false));
   LFD_TRY_STATUS(check_length("uv", arrays.uv.size(), vertices, true));
   LFD_TRY_STATUS(check_length("color", arrays.color.size(), vertices, true));
-  if (arrays.index.size() % 3 != 0) return Error(fmt::format("mesh: index: {} is no multiple of 3", arrays.index.size()));
+  if (arrays.index.size() % 3 != 0)
+    return Error(fmt::format("mesh: index: {} is no multiple of 3", arrays.index.size()));
   const auto outside = std::ranges::find_if(arrays.index, [&](std::uint32_t i) { return i >= vertices; });
   if (outside != arrays.index.end()) return Error(fmt::format("mesh: index: {} of {} vertices", *outside, vertices));
   return arrays;
@@ -54,7 +55,8 @@ Result<MeshArrays> mesh_arrays(const proto::Mesh& mesh) {
 
 Result<MeshArrays> mesh_arrays(std::string_view asset) {
   proto::Mesh mesh;
-  if (!mesh.ParseFromArray(asset.data(), static_cast<int>(asset.size()))) return Error("mesh: the asset cannot be parsed");
+  if (!mesh.ParseFromArray(asset.data(), static_cast<int>(asset.size())))
+    return Error("mesh: the asset cannot be parsed");
   return mesh_arrays(mesh);
 }
 

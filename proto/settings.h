@@ -31,7 +31,9 @@ struct AoSettings {
   bool operator==(const AoSettings&) const = default;
 
   // The world-space radius for this region of interest.
-  double radius_in_world_m(double roi_diagonal_m) const { return radius_m > 0 ? radius_m : radius_roi * roi_diagonal_m; }
+  double radius_in_world_m(double roi_diagonal_m) const {
+    return radius_m > 0 ? radius_m : radius_roi * roi_diagonal_m;
+  }
 };
 
 struct RenderSettings {
@@ -51,8 +53,8 @@ Result<RenderSettings> read_settings(const proto::RenderSettings& message);
 Result<RegionOfInterest> read_roi(const proto::RegionOfInterest& message);
 proto::RegionOfInterest write_roi(const RegionOfInterest& roi);
 
-// Fills what `message` leaves out: the world box from the scene's bounds, the physical box by uniform scale to fit the screen
-// (fit_to_screen of calibration/spaces/roi.h). A missing orientation is unturned.
+// Fills what `message` leaves out: the world box from the scene's bounds, the physical box by uniform scale to fit the
+// screen (fit_to_screen of calibration/spaces/roi.h). A missing orientation is unturned.
 Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, Point3<World> low, Point3<World> high,
                                       double screen_width_m, double screen_height_m);
 

@@ -3,6 +3,9 @@
 
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/message_differencer.h>
+
+#include <algorithm>
 
 #include "base/hash.h"
 #include "base/log.h"
@@ -45,6 +48,18 @@ Status apply_update(proto::State& state, const proto::Update& update) {
   if (update.instance_size() > 0) *state.mutable_scene()->mutable_instance() = update.instance();
   state.set_sequence(update.sequence());
   return {};
+}
+
+bool same_message(const google::protobuf::Message& a, const google::protobuf::Message& b) {
+  return google::protobuf::util::MessageDifferencer::Equals(a, b);
+}
+
+bool same_materials(const proto::Scene& a, const proto::Scene& b) {
+  return std::ranges::equal(a.material(), b.material(), same_message);
+}
+
+bool same_instances(const proto::Scene& a, const proto::Scene& b) {
+  return std::ranges::equal(a.instance(), b.instance(), same_message);
 }
 
 }  // namespace lfd

@@ -16,4 +16,11 @@ std::string state_hash(const proto::State& state);
 // follow the state by one (ask for a snapshot), or it places another number of instances than the scene has.
 Status apply_update(proto::State& state, const proto::Update& update);
 
+// Equal field by field; unset fields equal only unset ones.
+bool same_message(const google::protobuf::Message& a, const google::protobuf::Message& b);
+
+// The same lists of materials; the same instances, materials and places included.
+bool same_materials(const proto::Scene& a, const proto::Scene& b);
+bool same_instances(const proto::Scene& a, const proto::Scene& b);
+
 }  // namespace lfd

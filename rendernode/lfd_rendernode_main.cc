@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/command_line.h"
 #include "base/log.h"
 #include "base/signals.h"
-#include "base/command_line.h"
 #include "proto/calibration_file.h"
 #include "proto/deployment_file.h"
 #include "rendernode/gl/context.h"
@@ -28,17 +28,21 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--name", a.options.name, "Name of this node in the deployment");
   app.add_option("--controller", a.options.controller, "Control endpoint of the controller; default: the deployment's");
   app.add_option("--display", a.display, "Calibration file used instead of the deployment's");
-  app.add_option("--gpu", a.options.gpu, "Number of the GPU (--list-gpus); default: the deployment's, else the first that works");
-  app.add_option("--out", a.options.out, "Folder for images where the deployment's sink is FILES; default: the deployment's");
+  app.add_option("--gpu", a.options.gpu,
+                 "Number of the GPU (--list-gpus); default: the deployment's, else the first that works");
+  app.add_option("--out", a.options.out,
+                 "Folder for images where the deployment's sink is FILES; default: the deployment's");
   app.add_flag("--list-gpus", a.list_gpus, "List the GPUs that EGL offers, and end");
   add_log_level(app, a.log_level);
 }
 
 int list() {
+  bool any = false;
   for (const auto& gpu : gl::list_gpus()) {
     std::printf("%d  %s  %s\n", gpu.index, gpu.usable ? "usable  " : "unusable", gpu.description.c_str());
+    any = any || gpu.usable;
   }
-  return kExitDone;
+  return any ? kExitDone : fail(Error("no GPU can be used"));
 }
 
 // Fills in what the command line leaves to the deployment.
@@ -50,12 +54,11 @@ Status complete(Arguments& a) {
   if (node == deployment.nodes.end()) {
     return Error(fmt::format("{}: it has no node \"{}\" (--name)", a.deployment, a.options.name));
   }
-  if (a.options.gpu < 0 && deployment.message.node(static_cast<int>(node - deployment.nodes.begin())).gpu() > 0) {
-    a.options.gpu = node->gpu;
-  }
+  if (a.options.gpu < 0) a.options.gpu = node->gpu;
   if (a.options.controller.empty()) a.options.controller = deployment.addresses.control;
   if (a.options.controller.ends_with(":*")) {
-    return Error(fmt::format("{}: its control address has no fixed port; name the controller with --controller", a.deployment));
+    return Error(
+        fmt::format("{}: its control address has no fixed port; name the controller with --controller", a.deployment));
   }
   if (a.options.out.empty()) {
     const std::string& files = deployment.message.files();
@@ -87,7 +90,8 @@ int run(Arguments a) {
 
 int main(int argc, char** argv) {
   CLI::App app("Draws the modules that a deployment gives to the node, and streams their images.", "lfd-rendernode");
-  app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it within 2 s, even while it draws.");
+  app.footer(
+      "Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it within 2 s, even while it draws.");
   lfd::node::Arguments arguments;
   lfd::node::add_options(app, arguments);
   if (const auto code = lfd::parse_command_line(app, argc, argv)) return *code;

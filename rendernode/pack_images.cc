@@ -35,7 +35,8 @@ std::shared_ptr<const std::string> pack_position(std::span<const std::byte> pixe
   const Vector3<World> shift = roi.world_centre - position_origin(roi);
   return converted<Pixel>(pixels, [&](const Pixel& p) -> Pixel {
     if (p[3] == 0) return {};
-    return {static_cast<float>(p[0] + shift.x), static_cast<float>(p[1] + shift.y), static_cast<float>(p[2] + shift.z), 1};
+    return {static_cast<float>(p[0] + shift.x), static_cast<float>(p[1] + shift.y), static_cast<float>(p[2] + shift.z),
+            1};
   });
 }
 
@@ -60,7 +61,8 @@ std::shared_ptr<const std::string> pack_ao(std::span<const std::byte> pixels, co
 
 }  // namespace
 
-std::shared_ptr<const std::string> pack_image(proto::BufferKind kind, std::span<const std::byte> pixels, const PackInputs& in) {
+std::shared_ptr<const std::string> pack_image(proto::BufferKind kind, std::span<const std::byte> pixels,
+                                              const PackInputs& in) {
   switch (kind) {
     case proto::COLOR:
       return pack_color(pixels);

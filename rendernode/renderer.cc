@@ -1,30 +1,15 @@
 // The state of a node's renderer, and its frames.
 #include "rendernode/renderer.h"
 
-#include <google/protobuf/util/message_differencer.h>
-
 #include <algorithm>
 
 #include "base/log.h"
 #include "base/version.h"
+#include "proto/state.h"
+#include "rendernode/gl/memory.h"
 #include "rendernode/pack_images.h"
 
 namespace lfd {
-namespace {
-
-using google::protobuf::util::MessageDifferencer;
-
-// Equal apart from where the instances stand and how the lights shine.
-bool same_materials(const proto::Scene& a, const proto::Scene& b) {
-  return std::ranges::equal(a.material(), b.material(), [](const auto& x, const auto& y) { return MessageDifferencer::Equals(x, y); });
-}
-
-bool same_instances(const proto::Scene& a, const proto::Scene& b) {
-  return std::ranges::equal(a.instance(), b.instance(), [](const auto& x, const auto& y) { return MessageDifferencer::Equals(x, y); });
-}
-
-}  // namespace
-
 Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules)
     : display_(std::move(display)),
       modules_(std::move(modules)),
@@ -35,12 +20,12 @@ Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::
 }
 
 Status Renderer::set_state(const proto::State& state, const Assets& assets) {
-  if (state_ && MessageDifferencer::Equals(*state_, state)) return {};
+  if (state_ && same_message(*state_, state)) return {};
   LFD_TRY_STATUS(rebuild(state, assets));
   // A new sequence number alone changes no picture.
   proto::State before = state_.value_or(proto::State());
   before.set_sequence(state.sequence());
-  if (!state_ || !MessageDifferencer::Equals(before, state)) state_changed_ = true;
+  if (!state_ || !same_message(before, state)) state_changed_ = true;
   state_ = state;
   return {};
 }
@@ -51,10 +36,11 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   LFD_TRY(const RegionOfInterest roi, read_roi(state.roi()));
   const bool first = !state_.has_value();
-  const bool new_rule = first || settings.subdivision_px != settings_.subdivision_px || settings.near_z_m != settings_.near_z_m ||
-                        settings.far_z_m != settings_.far_z_m;
+  const bool new_rule = first || settings.subdivision_px != settings_.subdivision_px ||
+                        settings.near_z_m != settings_.near_z_m || settings.far_z_m != settings_.far_z_m;
   const bool new_geometry = new_rule || !(roi == roi_) || !same_instances(state.scene(), state_->scene());
-  const bool new_materials = first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
+  const bool new_materials =
+      first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
 
   DepthLimits limits = limits_;
   std::unique_ptr<EdgeRule> rule;
@@ -66,18 +52,25 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   if (new_geometry) {
     LFD_TRY(geometry, build_geometry(state.scene(), assets, meshes_, roi, limits, rule ? *rule : *rule_));
   }
+  GpuGeometry gpu_geometry;
+  if (geometry) {
+    gpu_geometry = upload_geometry(*geometry);
+    LFD_TRY_STATUS(gl::memory_status(fmt::format("{} triangles", geometry->planes.size())));
+  }
   std::optional<GpuMaterials> materials;
   if (new_materials) {
     LFD_TRY(materials, upload_materials(state.scene(), assets, settings.unlit));
+    LFD_TRY_STATUS(gl::memory_status("the textures of the scene"));
   }
   std::erase_if(meshes_, [&](const auto& mesh) {
-    return std::ranges::none_of(state.scene().instance(), [&](const auto& instance) { return instance.mesh() == mesh.first; });
+    return std::ranges::none_of(state.scene().instance(),
+                                [&](const auto& instance) { return instance.mesh() == mesh.first; });
   });
   if (rule) rule_ = std::move(rule);
   limits_ = limits;
   if (geometry) {
     geometry_ = std::move(*geometry);
-    gpu_geometry_ = upload_geometry(geometry_);
+    gpu_geometry_ = std::move(gpu_geometry);
   }
   if (materials) gpu_materials_ = std::move(*materials);
   gpu_lights_ = upload_lights(state.scene(), roi);
@@ -99,11 +92,13 @@ Status Renderer::draw(const FrameOptions& options) {
   // Frames are collected in order: by then the images of the one that this repeats are there.
   slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;
   if (!slot.reused) {
-    slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_, options.buffers});
+    slot.plan = plan_frame(
+        {&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_, options.buffers});
     const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
-    LFD_TRY_STATUS(passes_.submit(slot.plan, commands, {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
+    LFD_TRY_STATUS(passes_.submit(slot.plan, commands,
+                                  {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
                                   targets_, slot.timers));
-    slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image);
+    LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image));
     drawn_buffers_.reset();
     if (options.read_back) drawn_buffers_ = options.buffers;
     state_changed_ = false;
@@ -149,7 +144,8 @@ std::vector<ReadbackItem> Renderer::wanted(const Slot& slot) const {
   for (const auto layer : slot.plan.active_layers) {
     items.push_back({layer, proto::COLOR, targets_.color(slot.plan), GL_RGBA, GL_UNSIGNED_BYTE, 4});
     const BufferSet& asked = slot.options.buffers;
-    if (asked.has(proto::POSITION)) items.push_back({layer, proto::POSITION, targets_.position(), GL_RGBA, GL_FLOAT, 16});
+    if (asked.has(proto::POSITION))
+      items.push_back({layer, proto::POSITION, targets_.position(), GL_RGBA, GL_FLOAT, 16});
     if (asked.has(proto::NORMAL)) items.push_back({layer, proto::NORMAL, targets_.normal(), GL_RGBA, GL_FLOAT, 16});
     if (asked.has(proto::DEPTH)) items.push_back({layer, proto::DEPTH, targets_.position(), GL_RGBA, GL_FLOAT, 16});
     if (!asked.has(proto::AO)) continue;
@@ -168,7 +164,8 @@ std::vector<ModuleImage> Renderer::images_of(const Slot& slot) const {
   const PackInputs pack{slot.roi, slot.ao, slot.plan.ao};
   for (std::size_t i = 0; i < slot.readback.items().size(); ++i) {
     const auto& item = slot.readback.items()[i];
-    images.push_back({modules_[item.layer], item.kind, display_.image, false, pack_image(item.kind, slot.readback.bytes(i), pack)});
+    images.push_back(
+        {modules_[item.layer], item.kind, display_.image, false, pack_image(item.kind, slot.readback.bytes(i), pack)});
   }
   append_empty(slot, images);
   return images;
@@ -209,7 +206,8 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
   }
   for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
   if (geometry_.degenerate_triangles > 0) {
-    report.add_warning(fmt::format("{} triangles without an area, or not finite, are not drawn", geometry_.degenerate_triangles));
+    report.add_warning(
+        fmt::format("{} triangles without an area, or not finite, are not drawn", geometry_.degenerate_triangles));
   }
 }
 

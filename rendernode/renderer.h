@@ -1,4 +1,5 @@
-// Draws all modules of one node: holds the state, submits frames, hands finished images out. One thread, that of the context.
+// Draws all modules of one node: holds the state, submits frames, hands finished images out. One thread, that of the
+// context.
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@
 
 namespace lfd {
 
-// One finished buffer of one module. bytes: rows from the top; COLOR is RGBA8 with the sRGB transfer, all others RGBA float32.
+// One finished buffer of one module. bytes: rows from the top; COLOR is RGBA8 with the sRGB transfer, all others RGBA
+// float32.
 struct ModuleImage {
   std::uint32_t module = 0;
   proto::BufferKind kind = proto::COLOR;
@@ -40,14 +42,15 @@ struct FrameResult {
 
 class Renderer {
  public:
-  // `context` is current on this thread and outlives the renderer; modules: numbers, each below display.modules.size(), at most
-  // MODULES_PER_NODE of them.
+  // `context` is current on this thread and outlives the renderer; modules: numbers, each below display.modules.size(),
+  // at most MODULES_PER_NODE of them.
   Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules);
 
-  // Takes over scene, region of interest and settings; rebuilds only what they change. On an error the last state stays.
+  // Takes over scene, region of interest and settings; rebuilds only what they change. On an error the last state
+  // stays.
   Status set_state(const proto::State& state, const Assets& assets);
 
-  // Submits a frame; at most two may be under way. Errors: no state yet, a shader that does not compile.
+  // Submits a frame; at most two may be under way. Errors: no state yet, no memory, a shader that does not compile.
   Status draw(const FrameOptions& options);
 
   // Frames submitted and not yet collected.

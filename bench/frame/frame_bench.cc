@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/version.h"
+#include "bench/frame/commit.h"
 #include "controller/scene/made/made_scenes.h"
 #include "controller/scene/scene_file.h"
 #include "rendernode/renderer.h"

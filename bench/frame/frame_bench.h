@@ -1,4 +1,5 @@
-// Times the frames of one module without and with ambient occlusion, and judges what was timed (Doronin et al., WSCG 2017, section 7).
+// Times the frames of one module without and with ambient occlusion, and judges what was timed (Doronin et al., WSCG
+// 2017, section 7).
 #pragma once
 
 #include <cstdint>

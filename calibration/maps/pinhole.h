@@ -44,7 +44,8 @@ glm::dvec2 distort(const PinholeMap& map, glm::dvec2 a);
 // Absent behind the projector and where the distortion has turned back (beyond its limit, or its Jacobian mirrors).
 std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s);
 
-// By safeguarded Newton, to rounding where it can, to 1e-12 relative at worst; absent where no screen point within the distortion's limit lands on `p`.
+// By safeguarded Newton, to rounding where it can, to 1e-12 relative at worst; absent where no screen point within the
+// distortion's limit lands on `p`.
 std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p);
 
 }  // namespace lfd

@@ -1,8 +1,12 @@
 // The four spaces as types: a point of one cannot be used as a point of another.
 //
 //   World     the scene's own: glTF, right-handed, +y up, metres
-//   Physical  metres; x right as a viewer sees it, y up, z from the screen toward the viewer; origin at the screen's centre
+//
+//   Physical  metres; x right as a viewer sees it, y up, z from the screen toward the viewer; origin at the screen's
+//             centre
+//
 //   Screen    metres on the screen surface: (s, y)
+//
 //   Image     pixels of one module: u right, v down; the first pixel's centre is (0.5, 0.5); z is physical z
 //
 // A transform is named by both ends, target first: physical_from_world. See Affine in affine.h.

@@ -86,6 +86,8 @@ class Daemon {
   Result<bool> start_scene(const wire::Message& message);
   proto::Status status(Clock::time_point now) const;
   void reply(const std::string& client, std::uint64_t id, const Status& done);
+  // An error in place of what no message can hold.
+  void reply(const std::string& client, proto::Reply answer);
 
   Options options_;
   std::unique_ptr<wire::Context> context_;

@@ -87,12 +87,11 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   const bool complete = swapped && (shown || never_shown || failed);
   if (!complete && !stuck) return;
 
-  proto::Envelope envelope;
-  proto::Reply& reply = *envelope.mutable_reply();
-  reply.set_id(asked_->id);
-  reply.set_error(complete ? asked_->error : "every node that draws is out");
-  for (const proto::FrameReport& report : log_.reports(asked_->first, asked_->count)) *reply.add_frame() = report;
-  send(asked_->client, envelope);
+  proto::Reply answer;
+  answer.set_id(asked_->id);
+  answer.set_error(complete ? asked_->error : "every node that draws is out");
+  for (const proto::FrameReport& report : log_.reports(asked_->first, asked_->count)) *answer.add_frame() = report;
+  reply(asked_->client, std::move(answer));
   if (!complete) pacing_.ask_for(0);
   asked_.reset();
 }

@@ -10,9 +10,24 @@ constexpr std::uint32_t kMostFrames = FrameLog::kRemembered;  // of one request:
 }  // namespace
 
 void Daemon::reply(const std::string& client, std::uint64_t id, const Status& done) {
+  proto::Reply answer;
+  answer.set_id(id);
+  if (!done) answer.set_error(done.error().message());
+  reply(client, std::move(answer));
+}
+
+void Daemon::reply(const std::string& client, proto::Reply answer) {
+  constexpr std::int64_t kMost_bytes = wire::kSmallMessages.max_part_bytes - 1024;  // the envelope has its share
+  const auto bytes = static_cast<std::int64_t>(answer.ByteSizeLong());
   proto::Envelope envelope;
-  envelope.mutable_reply()->set_id(id);
-  if (!done) envelope.mutable_reply()->set_error(done.error().message());
+  if (bytes > kMost_bytes) {
+    envelope.mutable_reply()->set_id(answer.id());
+    envelope.mutable_reply()->set_error(
+        fmt::format("the reply of {} MiB does not fit into a message of {} MiB; ask for fewer frames at a time",
+                    bytes >> 20, wire::kSmallMessages.max_part_bytes >> 20));
+  } else {
+    *envelope.mutable_reply() = std::move(answer);
+  }
   send(client, envelope);
 }
 
@@ -28,10 +43,10 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
   };
   switch (request.what_case()) {
     case proto::Request::kStatus: {
-      proto::Envelope envelope;
-      envelope.mutable_reply()->set_id(request.id());
-      *envelope.mutable_reply()->mutable_status() = status(now);
-      return send(message.peer, envelope);
+      proto::Reply answer;
+      answer.set_id(request.id());
+      *answer.mutable_status() = status(now);
+      return reply(message.peer, std::move(answer));
     }
     case proto::Request::kRoi:
       return change(stage_.set_roi(request.roi()));

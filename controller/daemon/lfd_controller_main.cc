@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/command_line.h"
 #include "base/log.h"
 #include "base/signals.h"
-#include "base/command_line.h"
 #include "controller/daemon/daemon.h"
 
 namespace lfd::controller {
@@ -29,7 +29,9 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--roi", a.roi, "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)")
       ->delimiter(',')
       ->expected(6);
-  app.add_option("--plan", a.plan, "\"everything\": leave nothing out; \"needed\": what the deployment says")
+  app.add_option("--plan", a.plan,
+                 "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need; default: the "
+                 "deployment's")
       ->check(CLI::IsMember({"everything", "needed"}));
   app.add_option("--sink", a.sink, "Where finished images go: display, files or none, instead of the deployment's")
       ->check(CLI::IsMember({"display", "files", "none"}));
@@ -59,6 +61,7 @@ Result<Deployment> read_deployment(const Arguments& a) {
     set_vector(*roi.mutable_world_size(), a.roi[3], a.roi[4], a.roi[5]);
   }
   if (a.plan == "everything") deployment.message.mutable_render()->set_planner(proto::RenderSettings::EVERYTHING);
+  if (a.plan == "needed") deployment.message.mutable_render()->set_planner(proto::RenderSettings::PLAN);
   if (a.sink == "display") deployment.message.set_sink(proto::Deployment::DISPLAY);
   if (a.sink == "files") deployment.message.set_sink(proto::Deployment::FILES);
   if (a.sink == "none") deployment.message.set_sink(proto::Deployment::NONE);

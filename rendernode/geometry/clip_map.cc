@@ -13,7 +13,8 @@ glm::dmat3 ideal_homography(ScreenSize screen, ImageSize image) {
   return h;
 }
 
-ClipMap::ClipMap(const DisplayCalibration& display, const ModuleCalibration& module) : display_(&display), module_(&module) {
+ClipMap::ClipMap(const DisplayCalibration& display, const ModuleCalibration& module)
+    : display_(&display), module_(&module) {
   if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
     homography_ = homography->image_from_screen;
   } else if (const auto* pinhole = std::get_if<PinholeMap>(&module.map)) {
@@ -28,8 +29,9 @@ glm::dvec3 ClipMap::screen_from_physical(Point3<Physical> p) const {
   const double vz = display_->optics.observer_distance_m, vy = display_->optics.observer_height_m;
   const Emitter& e = module_->emitter;
   const double sy = vy + (p.y - vy) * (vz / (vz - p.z));
-  const double w = display_->optics.diffuser == Diffuser::kLinear ? (p.z - e.z) / -e.z
-                                                                  : 1 + convergence(display_->optics, e, sy) * (p.z / vz);
+  const double w = display_->optics.diffuser == Diffuser::kLinear
+                       ? (p.z - e.z) / -e.z
+                       : 1 + convergence(display_->optics, e, sy) * (p.z / vz);
   return {e.x + (p.x - e.x) / w, sy, w};
 }
 

@@ -10,11 +10,12 @@
 
 namespace lfd {
 
-// A corner before the division: (u w, v w, w) in pixels. What lies between two corners is drawn on the straight line between them.
+// A corner before the division: (u w, v w, w) in pixels. What lies between two corners is drawn on the straight line
+// between them.
 using ClipPoint = glm::dvec3;
 
-// The map of one module, prepared for many points. Unlike image_from_physical it goes on beside the screen and the image, and
-// beyond the radius where a distortion turns back: a triangle's corner needs a place there too.
+// The map of one module, prepared for many points. Unlike image_from_physical it goes on beside the screen and the
+// image, and beyond the radius where a distortion turns back: a triangle's corner needs a place there too.
 class ClipMap {
  public:
   ClipMap(const DisplayCalibration& display, const ModuleCalibration& module);

@@ -13,7 +13,8 @@ constexpr int kRows = 65;
 template <class Visit>
 void for_rows(const DisplayCalibration& display, Visit visit) {
   for (const auto& module : display.modules) {
-    for (int i = 0; i < kRows; ++i) visit(module, display.screen.height_m * (static_cast<double>(i) / (kRows - 1) - 0.5));
+    for (int i = 0; i < kRows; ++i)
+      visit(module, display.screen.height_m * (static_cast<double>(i) / (kRows - 1) - 0.5));
   }
 }
 

@@ -12,8 +12,9 @@ struct DepthLimits {
   double depth_scale = 1;  // clip.z = depth_scale (front - z); at most w everywhere between the limits
 };
 
-// The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back at least
-// 0.1 % before the nearest plane where some module on some row of the screen has a singularity. Defaults: settings.proto.
+// The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back
+// at least 0.1 % before the nearest plane where some module on some row of the screen has a singularity. Defaults:
+// settings.proto.
 DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings& settings);
 
 }  // namespace lfd

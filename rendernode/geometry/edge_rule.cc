@@ -27,8 +27,8 @@ bool beside(ScreenSize screen, glm::dvec3 a, glm::dvec3 b) {
 
 }  // namespace
 
-EdgeRule::EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const DepthLimits& limits,
-                   double tolerance_px)
+EdgeRule::EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules,
+                   const DepthLimits& limits, double tolerance_px)
     : display_(&display), limits_(limits), tolerance_px_(tolerance_px) {
   for (const auto k : modules) {
     maps_.emplace_back(display, display.modules[k]);
@@ -105,11 +105,13 @@ void EdgeRule::measure_bend() {
             const double spread = (z - emitter.z) / -emitter.z;
             const double fall = 1 - z / display_->optics.observer_distance_m;
             const double sx = 0.5 * display_->screen.width_m * x;
-            const Point3<Physical> p{emitter.x + (sx - emitter.x) * spread, 0.5 * display_->screen.height_m * y * fall, z};
+            const Point3<Physical> p{emitter.x + (sx - emitter.x) * spread, 0.5 * display_->screen.height_m * y * fall,
+                                     z};
             for (const auto& d : kDirections) {
               const Vector3<Physical> v{step * d[0], step * d[1], step * d[2]};
               const double found = deviation_in(maps_[k], p, p + v);
-              if (std::isfinite(found)) bend_[static_cast<std::size_t>(i)] = std::max(bend_[static_cast<std::size_t>(i)], found / dot(v, v));
+              if (std::isfinite(found))
+                bend_[static_cast<std::size_t>(i)] = std::max(bend_[static_cast<std::size_t>(i)], found / dot(v, v));
             }
           }
         }

@@ -1,8 +1,8 @@
 // Which edges must be split, so that what is drawn straight is nowhere far from where the map would put it.
 //
-// A rasteriser draws the points between two corners on the straight line between their clip points; the map is not projective, so
-// they belong elsewhere. The rule looks at one edge at a time and at nothing else: triangles that share it decide alike, and no
-// crack opens (design geometry, section 4).
+// A rasteriser draws the points between two corners on the straight line between their clip points; the map is not
+// projective, so they belong elsewhere. The rule looks at one edge at a time and at nothing else: triangles that share
+// it decide alike, and no crack opens (design geometry, section 4).
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ namespace lfd {
 
 class EdgeRule {
  public:
-  // tolerance_px: how far the drawn edge may lie beside the true one; along the edge (which moves textures and depth, not
-  // outlines) twenty times as much is allowed. modules: those the geometry is drawn for.
+  // tolerance_px: how far the drawn edge may lie beside the true one; along the edge (which moves textures and depth,
+  // not outlines) twenty times as much is allowed. modules: those the geometry is drawn for.
   EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const DepthLimits& limits,
            double tolerance_px);
 
@@ -35,8 +35,8 @@ class EdgeRule {
   std::vector<Emitter> emitters_;
   DepthLimits limits_;
   double tolerance_px_;
-  // Per slice of z: no edge of length L in it deviates by more than bend * L^2 tolerances. Measured over the screen with a margin,
-  // it only spares most short edges the exact test.
+  // Per slice of z: no edge of length L in it deviates by more than bend * L^2 tolerances. Measured over the screen
+  // with a margin, it only spares most short edges the exact test.
   std::vector<double> bend_;
 };
 

@@ -1,6 +1,7 @@
 // Instances to physical space.
 #include "rendernode/geometry/physical_geometry.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -24,7 +25,8 @@ Result<Affine<World, Mesh>> placement_of(const proto::Instance& instance) {
   if (instance.world_from_mesh_size() != 12) return Error("world_from_mesh: 12 numbers are needed");
   Affine<World, Mesh> placement;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) placement.linear[column][row] = instance.world_from_mesh(4 * row + column);
+    for (int column = 0; column < 3; ++column)
+      placement.linear[column][row] = instance.world_from_mesh(4 * row + column);
     placement.offset[row] = instance.world_from_mesh(4 * row + 3);
   }
   return placement;
@@ -36,7 +38,8 @@ glm::dmat3 normal_map(const glm::dmat3& m) {
   return {sign * glm::cross(m[1], m[2]), sign * glm::cross(m[2], m[0]), sign * glm::cross(m[0], m[1])};
 }
 
-std::vector<Corner> corners_of(const MeshArrays& mesh, const Affine<World, Mesh>& world_from_mesh, const RegionOfInterest& roi) {
+std::vector<Corner> corners_of(const MeshArrays& mesh, const Affine<World, Mesh>& world_from_mesh,
+                               const RegionOfInterest& roi) {
   // World points are counted from the ROI centre before they are scaled: no digits are lost far from the origin.
   const glm::dmat3 physical_from_world_linear = physical_from_world(roi).linear;
   const glm::dvec3 offset = world_from_mesh.offset - to_glm(roi.world_centre);
@@ -54,12 +57,22 @@ std::vector<Corner> corners_of(const MeshArrays& mesh, const Affine<World, Mesh>
   return corners;
 }
 
+// Physical metres that are nowhere more than kSlackShare of the diagonal in the world. Large enough that a flat wall of
+// several triangles has no seams where it is grazed, small enough that a crease is true to a third of the bound of
+// 1e-3.
+constexpr double kSlackShare = 3e-4;
+
+double slack_m(const RegionOfInterest& roi) {
+  const glm::dvec3 scale = roi.world_size / roi.physical_size;
+  return kSlackShare * roi.diagonal_m() / std::max({scale.x, scale.y, scale.z});
+}
+
 }  // namespace
 
 Result<PhysicalGeometry> build_geometry(const proto::Scene& scene, const Assets& assets, MeshCache& cache,
                                         const RegionOfInterest& roi, const DepthLimits& limits, const EdgeRule& rule) {
   PhysicalGeometry geometry;
-  TriangleFeed feed(limits, rule, geometry);
+  TriangleFeed feed(limits, rule, slack_m(roi), geometry);
   for (int i = 0; i < scene.instance_size(); ++i) {
     const auto& instance = scene.instance(i);
     const auto fail = [i](const Error& error) { return error.within(fmt::format("instance {}", i)); };

@@ -1,7 +1,8 @@
-// A scene's triangles as they are drawn: in physical space, cut at the limits in z, long edges split, each with its exact plane.
+// A scene's triangles as they are drawn: in physical space, cut at the limits in z, long edges split, each with its
+// exact plane.
 //
-// Everything here is computed in double precision and rounded once: however far from the world's origin the region of interest
-// lies, and however small it is, the GPU sees coordinates of the size of the screen.
+// Everything here is computed in double precision and rounded once: however far from the world's origin the region of
+// interest lies, and however small it is, the GPU sees coordinates of the size of the screen.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +22,10 @@ namespace lfd {
 
 // A corner as the vertex shader reads it; 36 bytes.
 struct SurfaceVertex {
-  float position[3];        // physical, metres
-  std::int16_t normal[4];   // world, unit, signed normalised; w unused
+  float position[3];       // physical, metres
+  std::int16_t normal[4];  // world, unit, signed normalised; w unused
   float uv[2];
-  std::uint16_t color[4];   // half floats
+  std::uint16_t color[4];  // half floats
 };
 static_assert(sizeof(SurfaceVertex) == 36);
 
@@ -33,7 +34,7 @@ struct GeometryItem {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t primitive_base = 0;  // of its planes
   std::uint32_t material = 0;
-  Point3<Physical> low, high;        // bounds
+  Point3<Physical> low, high;  // bounds
 };
 
 struct PhysicalGeometry {
@@ -42,8 +43,8 @@ struct PhysicalGeometry {
   std::vector<shared::PrimitivePlane> planes;  // one per triangle
   std::vector<GeometryItem> items;             // without the empty ones
   std::uint64_t source_triangles = 0;
-  std::uint64_t degenerate_triangles = 0;      // without an area, or not finite: not drawn
-  std::uint64_t cut_triangles = 0;             // cut by a limit in z, or wholly beyond it
+  std::uint64_t degenerate_triangles = 0;  // without an area, or not finite: not drawn
+  std::uint64_t cut_triangles = 0;         // cut by a limit in z, or wholly beyond it
 };
 
 // Decoded meshes by content hash, kept from one build to the next.

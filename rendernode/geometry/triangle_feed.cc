@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint32_t kNotWritten = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMostSplits = 10;  // halvings of one edge; by then a rule that is never content has met a singularity
 
-std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physical> b, Point3<Physical> c) {
+std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physical> b, Point3<Physical> c,
+                                               double slack_m) {
   const Vector3<Physical> n = cross(b - a, c - a);
   const double area2 = length(n);
   if (!(area2 > 0) || !std::isfinite(area2)) return std::nullopt;
@@ -21,29 +22,46 @@ std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physic
   const Point3<Physical> centre = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3};
   const double offset = dot(unit, centre - Point3<Physical>{});
   const auto [low, high] = std::minmax({a.z, b.z, c.z});
-  return shared::PrimitivePlane{{unit.x, unit.y, unit.z, offset}, {low, high, 0, 0}};
+  // A barycentric coordinate grows from 0 on the side opposite to its corner.
+  const Vector3<Physical> to_a = (1 / area2) * cross(unit, c - b), to_b = (1 / area2) * cross(unit, a - c);
+  const double at_a = -dot(to_a, b - Point3<Physical>{}) + slack_m * length(to_a);
+  const double at_b = -dot(to_b, c - Point3<Physical>{}) + slack_m * length(to_b);
+  const double slacks = slack_m * (length(to_a) + length(to_b) + length(to_a + to_b));
+  return shared::PrimitivePlane{{unit.x, unit.y, unit.z, offset},
+                                {low, high, 1 + slacks, 0},
+                                {to_a.x, to_a.y, to_a.z, at_a},
+                                {to_b.x, to_b.y, to_b.z, at_b}};
 }
 
 std::uint16_t half_of(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
 
-std::int16_t snorm_of(double value) { return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767)); }
+std::int16_t snorm_of(double value) {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));
+}
 
 }  // namespace
 
 Corner between(const Corner& a, const Corner& b, double t) {
   const auto mix = [t](double x, double y) { return x + t * (y - x); };
   return {{mix(a.position.x, b.position.x), mix(a.position.y, b.position.y), mix(a.position.z, b.position.z)},
-          glm::mix(a.normal, b.normal, t), glm::mix(a.uv, b.uv, t), glm::mix(a.color, b.color, t)};
+          glm::mix(a.normal, b.normal, t),
+          glm::mix(a.uv, b.uv, t),
+          glm::mix(a.color, b.color, t)};
 }
 
 Corner middle_of(const Corner& a, const Corner& b) {
-  return {midpoint(a.position, b.position), 0.5 * (a.normal + b.normal), 0.5 * (a.uv + b.uv), 0.5 * (a.color + b.color)};
+  return {midpoint(a.position, b.position), 0.5 * (a.normal + b.normal), 0.5 * (a.uv + b.uv),
+          0.5 * (a.color + b.color)};
 }
 
 void TriangleFeed::begin_item(std::uint32_t material, std::vector<Corner> corners) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  item_ = {static_cast<std::uint32_t>(out_.indices.size()), 0, static_cast<std::uint32_t>(out_.planes.size()), material,
-           {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  item_ = {static_cast<std::uint32_t>(out_.indices.size()),
+           0,
+           static_cast<std::uint32_t>(out_.planes.size()),
+           material,
+           {kFar, kFar, kFar},
+           {-kFar, -kFar, -kFar}};
   corners_ = std::move(corners);
   written_.assign(corners_.size(), kNotWritten);
 }
@@ -51,7 +69,7 @@ void TriangleFeed::begin_item(std::uint32_t material, std::vector<Corner> corner
 void TriangleFeed::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   ++out_.source_triangles;
   const std::array<Point3<Physical>, 3> p{corners_[a].position, corners_[b].position, corners_[c].position};
-  const auto plane = plane_of(p[0], p[1], p[2]);
+  const auto plane = plane_of(p[0], p[1], p[2], slack_m_);
   if (!plane) {
     ++out_.degenerate_triangles;
     return;

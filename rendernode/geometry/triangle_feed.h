@@ -23,8 +23,9 @@ Corner middle_of(const Corner& a, const Corner& b);
 
 class TriangleFeed {
  public:
-  TriangleFeed(const DepthLimits& limits, const EdgeRule& rule, PhysicalGeometry& out)
-      : limits_(limits), rule_(rule), out_(out) {}
+  // slack_m: how far beside a triangle of the scene its plane still counts as its surface, >= 0 (PrimitivePlane).
+  TriangleFeed(const DepthLimits& limits, const EdgeRule& rule, double slack_m, PhysicalGeometry& out)
+      : limits_(limits), rule_(rule), slack_m_(slack_m), out_(out) {}
 
   // Opens an item. corners: all vertices of its mesh.
   void begin_item(std::uint32_t material, std::vector<Corner> corners);
@@ -46,6 +47,7 @@ class TriangleFeed {
 
   const DepthLimits& limits_;
   const EdgeRule& rule_;
+  double slack_m_;
   PhysicalGeometry& out_;
   GeometryItem item_;
   std::vector<Corner> corners_;

@@ -38,7 +38,9 @@ std::vector<EGLDeviceEXT> devices() {
 }
 
 // The core name eglGetPlatformDisplay aborts in libepoxy before a display exists; the extension's does not.
-EGLDisplay device_display(EGLDeviceEXT device) { return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr); }
+EGLDisplay device_display(EGLDeviceEXT device) {
+  return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+}
 
 EGLDisplay surfaceless_display() {
   return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY), nullptr);
@@ -58,9 +60,15 @@ Status Context::open(void* display) {
   EGLConfig config = nullptr;
   EGLint configs = 0;
   if (!eglChooseConfig(display, config_wanted.data(), &config, 1, &configs) || configs == 0) config = EGL_NO_CONFIG_KHR;
-  const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE, EGL_NONE};
+  const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_DEBUG,
+                                     EGL_TRUE,
+                                     EGL_NONE};
   context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
   if (context_ == EGL_NO_CONTEXT) return Error(fmt::format("no OpenGL 4.5 core context ({:#x})", eglGetError()));
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
@@ -68,6 +76,13 @@ Status Context::open(void* display) {
   }
   if (!epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array")) {
     return Error("the driver lacks GL_ARB_shader_viewport_layer_array");
+  }
+  // GL promises a block of 16 KiB only; a node's modules need more (shaders/shared/bindings.glsl).
+  GLint block_bytes = 0;
+  glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &block_bytes);
+  constexpr GLint kBlockBytes = 65536;
+  if (block_bytes < kBlockBytes) {
+    return Error(fmt::format("the driver's uniform blocks hold {} bytes; {} are needed", block_bytes, kBlockBytes));
   }
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -111,7 +126,8 @@ Context::~Context() {
 
 std::vector<Gpu> list_gpus() {
   std::vector<Gpu> gpus;
-  for (int i = 0; i < static_cast<int>(devices().size()); ++i) {
+  const int count = static_cast<int>(devices().size());
+  for (int i = count == 0 ? -1 : 0; i < count; ++i) {
     auto context = Context::create(i);
     gpus.push_back({i, context ? (*context)->description() : context.error().message(), static_cast<bool>(context)});
   }

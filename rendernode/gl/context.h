@@ -11,14 +11,16 @@ namespace lfd::gl {
 
 // One EGL device, as `lfd-rendernode --list-gpus` shows it.
 struct Gpu {
-  int index = 0;
+  int index = 0;            // for Context::create; -1: the surfaceless platform of a driver that lists no devices
   std::string description;  // vendor, renderer and GL version, or why it cannot be used
   bool usable = false;
 };
 
+// All devices; where EGL lists none, the surfaceless platform.
 std::vector<Gpu> list_gpus();
 
-// Current on the thread that made it until it is destroyed; it never changes threads. GL's debug output goes to the log.
+// Current on the thread that made it until it is destroyed; it never changes threads. GL's debug output goes to the
+// log.
 class Context {
  public:
   // gpu: an index of list_gpus(); -1: the first that works, then the surfaceless platform.

@@ -14,7 +14,8 @@ namespace lfd::gl {
 // Names of #defines that a variant of a shader is compiled with.
 using Flags = std::vector<std::string>;
 
-// The text of an embedded shader with `#include "..."` lines replaced (each file once) and flags defined after #version.
+// The text of an embedded shader with `#include "..."` lines replaced (each file once) and flags defined after
+// #version.
 Result<std::string> shader_text(std::string_view name, const Flags& flags);
 
 // Compiles and links. stages: embedded names ending in .vert, .frag or .comp. Errors carry the driver's log.

@@ -56,8 +56,8 @@ Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view byt
   const std::uint64_t expected = std::min<std::uint64_t>(chunk.offset() + piece_bytes_, chunk.total());
   if (chunk.total() > kMaxAsset_bytes || end != expected || (partial.total != 0 && partial.total != chunk.total())) {
     partial = {};
-    return Error(fmt::format("asset {}: a piece of {} bytes at {} of {} does not fit", chunk.hash(), bytes.size(), chunk.offset(),
-                             chunk.total()));
+    return Error(fmt::format("asset {}: a piece of {} bytes at {} of {} does not fit", chunk.hash(), bytes.size(),
+                             chunk.offset(), chunk.total()));
   }
   partial.total = chunk.total();
   partial.bytes.resize(chunk.total());

@@ -40,9 +40,9 @@ class AssetGatherer {
  private:
   struct Partial {
     std::string bytes;
-    std::uint64_t total = 0;   // 0: not known yet
-    std::uint64_t asked = 0;   // up to here
-    std::uint64_t here = 0;    // bytes
+    std::uint64_t total = 0;  // 0: not known yet
+    std::uint64_t asked = 0;  // up to here
+    std::uint64_t here = 0;   // bytes
   };
 
   std::uint32_t piece_bytes_;

@@ -123,9 +123,11 @@ Status Daemon::welcome(const proto::Welcome& message) {
   if (!display) return display.error().within("the controller's display");
   std::vector<std::uint32_t> modules(message.modules().begin(), message.modules().end());
   for (const auto k : modules) {
-    if (k >= display->modules.size()) return Error(fmt::format("the controller gives module {} of {}", k, display->modules.size()));
+    if (k >= display->modules.size())
+      return Error(fmt::format("the controller gives module {} of {}", k, display->modules.size()));
   }
-  if (modules.size() > MODULES_PER_NODE) return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
+  if (modules.size() > MODULES_PER_NODE)
+    return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
   LFD_TRY(state_socket_, wire::connect_subscriber(*context_, message.state_endpoint()));
   LFD_TRY(bulk_, wire::connect_dealer(*context_, message.bulk_endpoint(), wire::kChunks));
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
@@ -137,8 +139,9 @@ Status Daemon::welcome(const proto::Welcome& message) {
   waiting_.clear();
   hashes_.clear();
   gatherer_.ask_again();
-  drawing_.reset();
-  if (!modules.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *std::move(display), std::move(modules));
+  retire_drawing();
+  if (!modules.empty())
+    drawing_ = std::make_unique<RenderThread>(options_.gpu, *std::move(display), std::move(modules));
   follower_ = {};
   take_snapshot(message.snapshot());
   use_images_endpoint(message.images_endpoint());
@@ -146,6 +149,19 @@ Status Daemon::welcome(const proto::Welcome& message) {
   next_words_ = Clock::now();
   log::info("joined; {} modules, state {}", message.modules_size(), follower_.sequence());
   return {};
+}
+
+// The loop never waits for a frame under way: its thread ends by itself and is taken away once it has.
+void Daemon::retire_drawing() {
+  std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); });
+  if (drawing_ && !drawing_->stop_within({})) retired_.push_back(std::move(drawing_));
+  drawing_.reset();
+}
+
+bool Daemon::stop_drawing_within(Clock::duration patience) {
+  const auto until = Clock::now() + patience;
+  retire_drawing();
+  return std::ranges::all_of(retired_, [&](const auto& thread) { return thread->stop_within(until - Clock::now()); });
 }
 
 void Daemon::take_snapshot(const proto::Snapshot& snapshot) {
@@ -209,7 +225,8 @@ void Daemon::follow_assets() {
 void Daemon::hear_bulk() {
   if (!bulk_) return;
   while (const auto message = bulk_->receive()) {
-    if (message->envelope.has_not_found()) log::warn("the controller has no asset {}", message->envelope.not_found().hash());
+    if (message->envelope.has_not_found())
+      log::warn("the controller has no asset {}", message->envelope.not_found().hash());
     if (!message->envelope.has_chunk()) continue;
     if (const Status came = gatherer_.piece_came(message->envelope.chunk(), message->payload.text()); !came) {
       log::warn("{}", came.error().message());

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/signals.h"
 #include "proto/deployment.pb.h"
@@ -20,23 +21,23 @@
 namespace lfd::node {
 
 struct DaemonOptions {
-  std::string name;                            // as in the deployment
-  std::string controller;                      // control endpoint
-  int gpu = -1;                                // of --list-gpus; -1: the first that works
-  std::string calibration_hash;                // of the deployment's display, which the controller's must equal
-  std::string out;                             // folder of the sink `files`
+  std::string name;              // as in the deployment
+  std::string controller;        // control endpoint
+  int gpu = -1;                  // of --list-gpus; -1: the first that works
+  std::string calibration_hash;  // of the deployment's display, which the controller's must equal
+  std::string out;               // folder of the sink `files`
 };
 
 class Daemon {
  public:
   static Result<std::unique_ptr<Daemon>> open(DaemonOptions options);
 
-  // Runs until a signal or the controller's Quit (success), a refusal, or a GPU that cannot be used. A controller that is
-  // away is waited for.
+  // Runs until a signal or the controller's Quit (success), a refusal, or a GPU that cannot be used. A controller that
+  // is away is waited for.
   Status run(StopSignals& signals);
 
   // Ends the drawing. False where a frame under way does not end in time: the process must not wait for it.
-  bool stop_drawing_within(Clock::duration patience) { return !drawing_ || drawing_->stop_within(patience); }
+  bool stop_drawing_within(Clock::duration patience);
 
  private:
   Daemon(DaemonOptions options, std::unique_ptr<wire::Context> context, wire::Socket control)
@@ -47,6 +48,7 @@ class Daemon {
   void join_or_beat(Clock::time_point now);
   Status hear_control();
   Status welcome(const proto::Welcome& message);
+  void retire_drawing();
   void hear_state();
   void take_snapshot(const proto::Snapshot& snapshot);
   void follow_assets();
@@ -78,11 +80,13 @@ class Daemon {
   std::string ready_hash_;
 
   std::unique_ptr<RenderThread> drawing_;
+  // Of earlier welcomes, still in a frame that nobody waits for.
+  std::vector<std::unique_ptr<RenderThread>> retired_;
   std::deque<proto::BeginFrame> begun_;          // announced, not yet given to the render thread
   std::map<std::uint64_t, std::string> hashes_;  // of the state that each frame under way is drawn from
   ImageOutbox outbox_;
   std::optional<FileSink> files_;
-  std::deque<FrameEvent> waiting_;               // frames whose images wait for the outbox
+  std::deque<FrameEvent> waiting_;  // frames whose images wait for the outbox
 
   bool welcome_ = false, may_drop_ = false, ended_ = false;
   bool hears_state_ = false;  // a pulse has come: no begin will be missed, so the controller may count on this node

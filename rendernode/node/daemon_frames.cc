@@ -47,8 +47,8 @@ Status Daemon::take_events() {
   return {};
 }
 
-// Without a deadline a frame is ready only once the images of the one before have gone: a slow sink slows the show. With one, its
-// images are dropped: a slow sink costs frames. Either way no more than a few frames wait here.
+// Without a deadline a frame is ready only once the images of the one before have gone: a slow sink slows the show.
+// With one, its images are dropped: a slow sink costs frames. Either way no more than a few frames wait here.
 void Daemon::hand_on_waiting() {
   while (!waiting_.empty()) {
     FrameEvent& event = waiting_.front();

@@ -76,7 +76,8 @@ void RenderThread::loop(Renderer& renderer) {
   }
 }
 
-// A frame whose state cannot be drawn is ready without images; its report says why, and its modules keep what they show.
+// A frame whose state cannot be drawn is ready without images; its report says why, and its modules keep what they
+// show.
 void RenderThread::begin(Renderer& renderer, DrawJob job) {
   ++pending_;
   FrameOptions options;

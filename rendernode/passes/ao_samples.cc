@@ -76,7 +76,8 @@ std::vector<glm::dvec2> poisson_points(int count, Random& random) {
     for (int attempt = 0; attempt < 64 && !placed; ++attempt) {
       const double x1 = signed_unit(random.next());
       const glm::dvec2 candidate{x1, signed_unit(random.next())};
-      placed = std::ranges::all_of(points, [&](glm::dvec2 p) { return wrapped_distance2(p, candidate) >= radius * radius; });
+      placed =
+          std::ranges::all_of(points, [&](glm::dvec2 p) { return wrapped_distance2(p, candidate) >= radius * radius; });
       if (placed) points.push_back(candidate);
     }
     if (!placed) radius *= 0.95;

@@ -15,8 +15,8 @@ struct Submission {
   std::uint32_t first_command = 0, count = 0;
 };
 
-// Layers that are drawn together, and their draws. Normally a frame is one batch; where times are asked for per module, each
-// module is a batch of its own.
+// Layers that are drawn together, and their draws. Normally a frame is one batch; where times are asked for per module,
+// each module is a batch of its own.
 struct Batch {
   std::uint32_t first_layer = 0, layer_count = 0;  // in the buffer of layers
   std::vector<std::uint32_t> layers;

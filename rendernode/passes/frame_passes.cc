@@ -96,9 +96,9 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   if (in.modules.has_tables()) bind_texture(UNIT_PIXEL_TABLE, in.modules.pixel_tables.name());
 }
 
-Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
-                           PassTimers& timers) {
-  targets.prepare(plan);
+Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
+                           Targets& targets, PassTimers& timers) {
+  LFD_TRY_STATUS(targets.prepare(plan));
   if (commands.batches.empty()) return {};
   bind_inputs(commands, inputs);
   glViewport(0, 0, targets.size().width, targets.size().height);
@@ -135,8 +135,8 @@ Status FramePasses::draw_surfaces(const char* fragment, gl::Flags flags, const B
   return {};
 }
 
-Status FramePasses::z_prepass(const FramePlan&, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
-                              PassTimers& timers) {
+Status FramePasses::z_prepass(const FramePlan&, const CommandList& commands, const FrameInputs& inputs,
+                              Targets& targets, PassTimers& timers) {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.depth_only());
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
@@ -152,15 +152,16 @@ Status FramePasses::z_prepass(const FramePlan&, const CommandList& commands, con
   return {};
 }
 
-Status FramePasses::gbuffer(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
-                            PassTimers& timers) {
+Status FramePasses::gbuffer(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
+                            Targets& targets, PassTimers& timers) {
   const GLuint framebuffer = targets.geometry(plan);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   constexpr float kFar = 1;
   constexpr std::array<float, 4> kNothing{};
-  const std::array<float, 4> background{inputs.settings.background.r, inputs.settings.background.g, inputs.settings.background.b, 0};
+  const std::array<float, 4> background{inputs.settings.background.r, inputs.settings.background.g,
+                                        inputs.settings.background.b, 0};
   glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background.data());
   if (plan.position) glClearNamedFramebufferfv(framebuffer, GL_COLOR, 1, kNothing.data());
   if (plan.normal) glClearNamedFramebufferfv(framebuffer, GL_COLOR, 2, kNothing.data());
@@ -214,8 +215,8 @@ Status FramePasses::blur(const CommandList& commands, double sigma_px, const Tar
   return {};
 }
 
-Status FramePasses::post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
-                         PassTimers& timers) {
+Status FramePasses::post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
+                         const Targets& targets, PassTimers& timers) {
   gl::Flags flags;
   if (plan.ao) flags.emplace_back("READ_AO");
   if (plan.position && inputs.lights.facts.need_position) flags.emplace_back("READ_POSITION");

@@ -34,10 +34,11 @@ GLint wrap_mode(proto::Texture::Wrap wrap) {
 TextureGroup make_group(const GroupKey& key, const std::vector<const Picture8*>& layers) {
   const auto& [width, height, wrap_s, wrap_t, nearest] = key;
   const int levels = std::bit_width(static_cast<unsigned>(std::max(width, height)));
-  TextureGroup group{gl::make_array_texture(GL_SRGB8_ALPHA8, {width, height}, static_cast<int>(layers.size()), levels), {}};
+  TextureGroup group{gl::make_array_texture(GL_SRGB8_ALPHA8, {width, height}, static_cast<int>(layers.size()), levels),
+                     {}};
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-    glTextureSubImage3D(group.texture.name(), 0, 0, 0, static_cast<GLint>(layer), width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE,
-                        layers[layer]->rgba.data());
+    glTextureSubImage3D(group.texture.name(), 0, 0, 0, static_cast<GLint>(layer), width, height, 1, GL_RGBA,
+                        GL_UNSIGNED_BYTE, layers[layer]->rgba.data());
   }
   glGenerateTextureMipmap(group.texture.name());
   GLuint sampler = 0;
@@ -61,14 +62,16 @@ class Gatherer {
     const auto [entry, added] = groups_.try_emplace(key);
     if (added) entry->second.group = static_cast<int>(groups_.size()) - 1;
     Gathered& gathered = entry->second;
-    const auto [layer, fresh] = gathered.layer_of.try_emplace(texture.picture(), static_cast<int>(gathered.layers.size()));
+    const auto [layer, fresh] =
+        gathered.layer_of.try_emplace(texture.picture(), static_cast<int>(gathered.layers.size()));
     if (fresh) gathered.layers.push_back(picture);
     return std::pair(gathered.group, layer->second);
   }
 
   std::vector<TextureGroup> upload() const {
     std::vector<TextureGroup> groups(groups_.size());
-    for (const auto& [key, gathered] : groups_) groups[static_cast<std::size_t>(gathered.group)] = make_group(key, gathered.layers);
+    for (const auto& [key, gathered] : groups_)
+      groups[static_cast<std::size_t>(gathered.group)] = make_group(key, gathered.layers);
     return groups;
   }
 
@@ -93,7 +96,9 @@ shared::MaterialParams params_of(const proto::Material& material, int layer) {
   for (int i = 0; i < 4; ++i) params.base_color[i] = i < material.base_color_size() ? material.base_color(i) : 1.0F;
   const bool transformed = material.texture().uv_transform_size() == 6;
   const std::array<float, 6> identity{1, 0, 0, 0, 1, 0};
-  const auto entry = [&](int i) { return transformed ? material.texture().uv_transform(i) : identity[static_cast<std::size_t>(i)]; };
+  const auto entry = [&](int i) {
+    return transformed ? material.texture().uv_transform(i) : identity[static_cast<std::size_t>(i)];
+  };
   params.uv_transform_0 = {entry(0), entry(1), entry(2), static_cast<float>(layer)};
   params.uv_transform_1 = {entry(3), entry(4), entry(5), 0};
   params.alpha = {material.has_alpha_cutoff() ? material.alpha_cutoff() : -1.0F, 0, 0, 0};

@@ -50,7 +50,8 @@ void fill_rows(const DisplayCalibration& display, const ModuleCalibration& modul
 
 }  // namespace
 
-shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module, int table_layer) {
+shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module,
+                                   int table_layer) {
   shared::ModuleParams params{};
   const auto* pinhole = std::get_if<PinholeMap>(&module.map);
   params.emitter = {module.emitter.x, module.emitter.y, module.emitter.z, pinhole != nullptr ? 1 : 0};
@@ -94,8 +95,8 @@ GpuModules upload_modules(const DisplayCalibration& display, const std::vector<s
   gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(tabulated.size()));
   for (std::size_t layer = 0; layer < tabulated.size(); ++layer) {
     const auto table = pixel_table(display, display.modules[tabulated[layer]]);
-    glTextureSubImage3D(gpu.pixel_tables.name(), 0, 0, 0, static_cast<GLint>(layer), display.image.width, display.image.height,
-                        1, GL_RG, GL_FLOAT, table.data());
+    glTextureSubImage3D(gpu.pixel_tables.name(), 0, 0, 0, static_cast<GLint>(layer), display.image.width,
+                        display.image.height, 1, GL_RG, GL_FLOAT, table.data());
   }
   return gpu;
 }

@@ -1,4 +1,5 @@
-// The modules of a node as the GPU knows them: their parameters, and per-pixel tables for maps without a closed inverse.
+// The modules of a node as the GPU knows them: their parameters, and per-pixel tables for maps without a closed
+// inverse.
 #pragma once
 
 #include <vector>
@@ -12,8 +13,8 @@ namespace lfd {
 // One module's parameters; table_layer: its layer in the pixel table, or -1.
 shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module, int table_layer);
 
-// Screen point (s, y) of every pixel centre, in metres, row by row from the top; far off the screen where there is none.
-// Solved in double precision; the rows are shared among the machine's cores.
+// Screen point (s, y) of every pixel centre, in metres, row by row from the top; far off the screen where there is
+// none. Solved in double precision; the rows are shared among the machine's cores.
 std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCalibration& module);
 
 struct GpuModules {

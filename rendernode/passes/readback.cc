@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/log.h"
+#include "rendernode/gl/memory.h"
 
 namespace lfd {
 
@@ -12,7 +14,7 @@ Readback::~Readback() {
   if (fence_ != nullptr) glDeleteSync(fence_);
 }
 
-void Readback::start(std::vector<ReadbackItem> items, ImageSize size) {
+Status Readback::start(std::vector<ReadbackItem> items, ImageSize size) {
   items_ = std::move(items);
   pixels_ = static_cast<std::size_t>(size.width) * size.height;
   offsets_.clear();
@@ -28,19 +30,22 @@ void Readback::start(std::vector<ReadbackItem> items, ImageSize size) {
     constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     glNamedBufferStorage(name, static_cast<GLsizeiptr>(total), nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
     mapped_ = static_cast<const std::byte*>(glMapNamedBufferRange(name, 0, static_cast<GLsizeiptr>(total), kAccess));
+    capacity_ = mapped_ != nullptr ? total : 0;
+    LFD_TRY_STATUS(gl::memory_status(fmt::format("reading {:.0f} MiB of pictures back", total / double{1 << 20})));
     LFD_CHECK(mapped_ != nullptr, "the read-back buffer cannot be mapped");
-    capacity_ = total;
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.name());
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const auto& item = items_[i];
-    glGetTextureSubImage(item.texture, 0, 0, 0, static_cast<GLint>(item.layer), size.width, size.height, 1, item.format, item.type,
-                         static_cast<GLsizei>(pixels_ * item.bytes_per_pixel), reinterpret_cast<void*>(offsets_[i]));
+    glGetTextureSubImage(item.texture, 0, 0, 0, static_cast<GLint>(item.layer), size.width, size.height, 1, item.format,
+                         item.type, static_cast<GLsizei>(pixels_ * item.bytes_per_pixel),
+                         reinterpret_cast<void*>(offsets_[i]));
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   if (fence_ != nullptr) glDeleteSync(fence_);
   fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glFlush();
+  return {};
 }
 
 bool Readback::finished(Clock::duration at_most) {

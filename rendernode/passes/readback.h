@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/result.h"
 #include "calibration/spaces/pixel.h"
 #include "proto/wire.pb.h"
 #include "rendernode/gl/objects.h"
@@ -28,7 +29,8 @@ class Readback {
   Readback& operator=(const Readback&) = delete;
 
   // Submits the copies and a fence. The item's bytes are valid from finished() until the next start().
-  void start(std::vector<ReadbackItem> items, ImageSize size);
+  // Error: no memory for the buffer.
+  Status start(std::vector<ReadbackItem> items, ImageSize size);
 
   // Whether the GPU has done everything up to and with the copies; waits at most so long.
   bool finished(Clock::duration at_most);

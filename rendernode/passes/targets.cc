@@ -3,33 +3,52 @@
 
 #include <array>
 
+#include "base/log.h"
+#include "rendernode/gl/memory.h"
+
 namespace lfd {
 
-void Targets::prepare(const FramePlan& plan) {
+Status Targets::prepare(const FramePlan& plan) {
+  make_textures(plan);
+  const std::string what = fmt::format("the pictures of {} modules of {}x{}", layers_, size_.width, size_.height);
+  if (const Status made = gl::memory_status(what); !made) {
+    *this = Targets(size_, layers_);
+    return made;
+  }
+  make_framebuffers();
+  return {};
+}
+
+void Targets::make_textures(const FramePlan& plan) {
   const auto make = [this](gl::Texture& texture, GLenum format) {
-    if (texture) return false;
-    texture = gl::make_array_texture(format, size_, layers_);
-    return true;
+    if (!texture) texture = gl::make_array_texture(format, size_, layers_);
   };
   make(albedo_, GL_SRGB8_ALPHA8);
-  if (make(depth_, GL_DEPTH_COMPONENT32F)) depth_framebuffer_ = gl::make_layered_framebuffer({}, depth_.name());
+  make(depth_, GL_DEPTH_COMPONENT32F);
   if (plan.position) make(position_, GL_RGBA32F);
   if (plan.normal) make(normal_, GL_RGBA16F);
-  for (int i = 0; plan.ao && i < (plan.blur ? 2 : 1); ++i) {
-    if (!make(ao_[i], GL_R16F)) continue;
-    const std::array<GLuint, 1> color{ao_[i].name()};
-    ao_framebuffer_[i] = gl::make_layered_framebuffer(color, 0);
-  }
-  if (plan.post && make(color_, GL_SRGB8_ALPHA8)) {
-    const std::array<GLuint, 1> color{color_.name()};
-    color_framebuffer_ = gl::make_layered_framebuffer(color, 0);
-  }
+  if (plan.ao) make(ao_[0], GL_R16F);
+  if (plan.ao && plan.blur) make(ao_[1], GL_R16F);
+  if (plan.post) make(color_, GL_SRGB8_ALPHA8);
+}
+
+void Targets::make_framebuffers() {
+  const auto make = [](gl::Framebuffer& framebuffer, const gl::Texture& color) {
+    if (framebuffer || !color) return;
+    const std::array<GLuint, 1> colors{color.name()};
+    framebuffer = gl::make_layered_framebuffer(colors, 0);
+  };
+  if (!depth_framebuffer_) depth_framebuffer_ = gl::make_layered_framebuffer({}, depth_.name());
+  make(ao_framebuffer_[0], ao_[0]);
+  make(ao_framebuffer_[1], ao_[1]);
+  make(color_framebuffer_, color_);
 }
 
 GLuint Targets::geometry(const FramePlan& plan) {
   gl::Framebuffer& framebuffer = geometry_framebuffer_[plan.position ? 1 : 0][plan.normal ? 1 : 0];
   if (!framebuffer) {
-    const std::array<GLuint, 3> colors{albedo_.name(), plan.position ? position_.name() : 0, plan.normal ? normal_.name() : 0};
+    const std::array<GLuint, 3> colors{albedo_.name(), plan.position ? position_.name() : 0,
+                                       plan.normal ? normal_.name() : 0};
     framebuffer = gl::make_layered_framebuffer(colors, depth_.name());
   }
   return framebuffer.name();

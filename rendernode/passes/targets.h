@@ -1,6 +1,7 @@
 // The pictures that passes write: array textures with one layer per module, made when a plan first needs them.
 #pragma once
 
+#include "base/result.h"
 #include "rendernode/gl/objects.h"
 #include "rendernode/plan/frame_plan.h"
 
@@ -10,8 +11,8 @@ class Targets {
  public:
   Targets(ImageSize size, int layers) : size_(size), layers_(layers) {}
 
-  // Makes what the plan needs and is not there yet.
-  void prepare(const FramePlan& plan);
+  // Makes what the plan needs and is not there yet. Error: the GPU has no memory for it; then nothing is kept.
+  Status prepare(const FramePlan& plan);
 
   ImageSize size() const { return size_; }
   int layers() const { return layers_; }
@@ -34,6 +35,9 @@ class Targets {
   GLuint color_framebuffer() const { return color_framebuffer_.name(); }
 
  private:
+  void make_textures(const FramePlan& plan);
+  void make_framebuffers();
+
   ImageSize size_;
   int layers_;
   gl::Texture albedo_, depth_, position_, normal_, color_;

@@ -53,7 +53,8 @@ class Planner {
       }
       if (seen || everything_) plan_.active_layers.push_back(layer);
       if (!seen && !everything_) leave_out("module", std::to_string(number), "no geometry in its view");
-      if (seen && unseen > 0) leave_out("draw", fmt::format("of module {}", number), "outside the module's view", unseen);
+      if (seen && unseen > 0)
+        leave_out("draw", fmt::format("of module {}", number), "outside the module's view", unseen);
     }
     // Opaque groups before masked ones: they fill the depth that spares the others work.
     for (const bool masked : {false, true}) {
@@ -65,11 +66,11 @@ class Planner {
 
   void choose_passes() {
     const bool any = !plan_.active_layers.empty();
-    const bool lit = !in_.settings.unlit &&
-                     std::ranges::any_of(*in_.items, [&](const GeometryItem& item) { return !(*in_.materials)[item.material].unlit; });
-    const bool textured = std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
-      return (*in_.materials)[item.material].texture_group >= 0;
+    const bool lit = !in_.settings.unlit && std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
+      return !(*in_.materials)[item.material].unlit;
     });
+    const bool textured = std::ranges::any_of(
+        *in_.items, [&](const GeometryItem& item) { return (*in_.materials)[item.material].texture_group >= 0; });
     if (!textured && any) leave_out("texture", "base colour", "no material has one");
 
     const bool ao_asked = in_.settings.ao.enabled;
@@ -94,11 +95,13 @@ class Planner {
   }
 
   // The prepass pays where a hidden fragment would cost texture fetches. That is a rule for GPUs, which it has not been
-  // measured on yet. On the software rasteriser it always costs: 7 % of a frame of Sponza, 24 % of the ribbed shell, 48 %
-  // where nothing is textured (bench/results/frame-llvmpipe.md).
+  // measured on yet. On the software rasteriser it always costs: 7 % of a frame of Sponza, 24 % of the ribbed shell, 48
+  // % where nothing is textured (bench/results/frame-llvmpipe.md).
   void choose_prepass(bool any, bool textured) {
     plan_.z_prepass = everything_ || (any && textured);
-    if (!plan_.z_prepass) leave_out("pass", "z_prepass", any ? "no texture is fetched: hidden fragments are cheap" : "no module sees geometry");
+    if (!plan_.z_prepass)
+      leave_out("pass", "z_prepass",
+                any ? "no texture is fetched: hidden fragments are cheap" : "no module sees geometry");
   }
 
   const PlanInputs& in_;

@@ -1,7 +1,7 @@
 // Decides what a frame needs: which modules, draws, passes and targets, and why the others are left out.
 //
-// It knows no GL: it is told the scene's items, the settings and what is asked for, and returns lists. Told to plan everything, it
-// leaves nothing out; the pictures are the same (a test holds that).
+// It knows no GL: it is told the scene's items, the settings and what is asked for, and returns lists. Told to plan
+// everything, it leaves nothing out; the pictures are the same (a test holds that).
 #pragma once
 
 #include <cstdint>
@@ -67,6 +67,7 @@ struct FramePlan {
 FramePlan plan_frame(const PlanInputs& inputs);
 
 // Whether anything within the bounds may have an image in the module: never false where it has one.
-bool may_be_seen(const DisplayCalibration& display, const ModuleCalibration& module, Point3<Physical> low, Point3<Physical> high);
+bool may_be_seen(const DisplayCalibration& display, const ModuleCalibration& module, Point3<Physical> low,
+                 Point3<Physical> high);
 
 }  // namespace lfd

@@ -39,19 +39,21 @@ bool may_be_seen(const DisplayCalibration& display, const ModuleCalibration& mod
   if (!(high.z < vz)) return true;
   // sy is linear in y at a given z, and monotone in z at a given y: its extremes are at the corners.
   const double near_scale = vz / (vz - high.z), far_scale = vz / (vz - low.z);
-  const Range sy = range_of({vy + (low.y - vy) * near_scale, vy + (low.y - vy) * far_scale, vy + (high.y - vy) * near_scale,
-                             vy + (high.y - vy) * far_scale});
+  const Range sy = range_of({vy + (low.y - vy) * near_scale, vy + (low.y - vy) * far_scale,
+                             vy + (high.y - vy) * near_scale, vy + (high.y - vy) * far_scale});
   // Half a pixel of slack covers rounding on the GPU.
   const double slack_x = 0.5 * display.screen.width_m / display.image.width;
   const double slack_y = 0.5 * display.screen.height_m / display.image.height;
-  const double half_width = 0.5 * display.screen.width_m + slack_x, half_height = 0.5 * display.screen.height_m + slack_y;
+  const double half_width = 0.5 * display.screen.width_m + slack_x,
+               half_height = 0.5 * display.screen.height_m + slack_y;
   if (sy.low > half_height || sy.high < -half_height) return false;
   const Range k = convergence_range(display.optics, module.emitter, sy);
-  const Range w = range_of({1 + k.low * low.z / vz, 1 + k.low * high.z / vz, 1 + k.high * low.z / vz, 1 + k.high * high.z / vz});
+  const Range w =
+      range_of({1 + k.low * low.z / vz, 1 + k.low * high.z / vz, 1 + k.high * low.z / vz, 1 + k.high * high.z / vz});
   if (!(w.low > 0)) return true;
   const double ex = module.emitter.x;
-  const Range sx = range_of({ex + (low.x - ex) / w.low, ex + (low.x - ex) / w.high, ex + (high.x - ex) / w.low,
-                             ex + (high.x - ex) / w.high});
+  const Range sx = range_of(
+      {ex + (low.x - ex) / w.low, ex + (low.x - ex) / w.high, ex + (high.x - ex) / w.low, ex + (high.x - ex) / w.high});
   return sx.low <= half_width && sx.high >= -half_width;
 }
 

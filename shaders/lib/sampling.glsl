@@ -1,4 +1,4 @@
-// Per-pixel turning of sample sets. GLSL twin: rendernode/passes/ao_samples.h.
+// Per-pixel turning of sample sets, which rendernode/passes/ao_samples.h makes.
 
 // PCG hash (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering"): three well-mixed numbers of three.
 uvec3 pcg3d(uvec3 v) {

@@ -1,5 +1,5 @@
 // Pass 3, ambient occlusion by samples in a spherical shell (Doronin et al., WSCG 2017, Algorithm 2), in the light-field form:
-// a sample counts as hidden if the surface stored at its own pixel is in front of it (larger physical z).
+// a sample counts as hidden if the surface stored where its image is lies in front of it (larger physical z).
 #version 450 core
 #include "shared/bindings.glsl"
 #include "shared/module_params.glsl"

@@ -14,17 +14,32 @@ vec2 screen_of_pixel(ModuleParams m, vec2 pixel) {
   return screen_from_image(m, pixel);
 }
 
+// The t at which R(t) = start + t direction is on the triangle's plane, brought back to where the line leaves the scene's triangle.
+// A rasteriser's corners are off by up to a hundredth of a pixel: it finds a triangle on pixels whose line passes just beside it, and
+// where the triangle is grazed its plane lies far from it there. (Not of the piece that is drawn: pieces share the plane.)
+float keep_in_triangle(PrimitivePlane plane, vec3 start, vec3 direction, float t) {
+  vec3 at_start = vec3(dot(plane.inside_0, vec4(start, 1.0)), dot(plane.inside_1, vec4(start, 1.0)), plane.range.z);
+  at_start.z -= at_start.x + at_start.y;
+  vec3 growth = vec3(dot(plane.inside_0.xyz, direction), dot(plane.inside_1.xyz, direction), 0.0);
+  growth.z = -growth.x - growth.y;
+  if (all(greaterThanEqual(at_start + t * growth, vec3(0.0)))) return t;
+  vec3 crossing = -at_start / growth;
+  vec3 entry = mix(vec3(-1e30), crossing, greaterThan(growth, vec3(0.0)));
+  vec3 exit = mix(vec3(1e30), crossing, lessThan(growth, vec3(0.0)));
+  float first = max(entry.x, max(entry.y, entry.z)), last = min(exit.x, min(exit.y, exit.z));
+  return first <= last ? clamp(t, first, last) : t;
+}
+
 // Physical point where the line of a pixel meets the triangle (w: 1 seen from the front, -1 from behind, 0 not at all).
-// The point is kept within the range of z of the scene's triangle, which bounds the error where the line grazes the plane. (Not
-// of the piece that is drawn: a line that meets the neighbouring piece is within tolerance of this one, far as it may lie in z.)
 vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 pixel) {
   vec2 s = screen_of_pixel(m, pixel);
   if (!on_screen(m, s)) return vec4(0.0);
   vec3 direction = line_direction(m, s);
   float slope = dot(plane.normal_offset.xyz, direction);
   float t = (plane.normal_offset.w - dot(plane.normal_offset.xyz, vec3(s, 0.0))) / slope;
-  vec2 range = plane.z_range.xy / m.observer.y;
+  vec2 range = plane.range.xy / m.observer.y;
   t = clamp(slope == 0.0 ? range.y : t, range.x, range.y);
+  t = keep_in_triangle(plane, vec3(s, 0.0), direction, t);
   return vec4(vec3(s, 0.0) + t * direction, slope >= 0.0 ? 1.0 : -1.0);
 }
 

@@ -1,4 +1,5 @@
-// Lets C++ compile the structs of shaders/shared: GLSL's names of types, in std430 layout (vec4 and uint only).
+// Lets C++ compile the structs of shaders/shared: GLSL's names of types, in a layout that std140 and std430 share
+// (vec4; uint in draw_record alone).
 #pragma once
 
 #include <cstdint>

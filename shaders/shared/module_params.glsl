@@ -1,4 +1,4 @@
-// One optical module: its optics and its map. std430; vec4 only, so that C++ and GLSL lay it out alike.
+// One optical module: its optics and its map. vec4 only, so that C++, std140 and std430 lay it out alike.
 struct ModuleParams {
   vec4 emitter;            // ex, ey, ez in physical metres; w: map kind, 0 homography (ideal maps too), 1 pinhole
   vec4 observer;           // x: height vy, y: distance vz (m); z: diffuser, 0 linear, 1 conical; w: layer of the pixel table, or -1

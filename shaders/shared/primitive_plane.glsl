@@ -1,5 +1,8 @@
-// The plane of one triangle in physical space: normal . P = offset; the normal points to its front.
+// One triangle as a fragment needs it: its plane in physical space, normal . P = offset, and where on the plane the scene's triangle
+// lies that it is a part of. The normal points to its front.
 struct PrimitivePlane {
   vec4 normal_offset;  // unit normal, offset (m)
-  vec4 z_range;        // x: smallest, y: largest physical z of the scene's triangle that it is a part of; zw unused
+  vec4 range;          // x: smallest, y: largest physical z of the scene's triangle; z: constant of the third coordinate; w unused
+  vec4 inside_0;       // first two barycentric coordinates in that triangle, each raised by the slack: gradient (1/m), constant;
+  vec4 inside_1;       // the third is range.z minus both. None is negative in the triangle or within the slack of it
 };

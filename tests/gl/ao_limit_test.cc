@@ -43,8 +43,8 @@ constexpr int kSamples = 256, kSeeds = 2;
 
 // 4.5 standard errors of the mean: of the rendered samples if they were independent (the better generators only stay
 // further below), and of the reference's. `grid` is for what does not fall with the number of samples: a sample meets
-// the pixel it falls on, not its own line, so that an outline within the sphere is off by up to half a pixel, with
-// alternating sign.
+// the surface interpolated between four pixels, not its own line, so that an outline within the sphere is off by up to
+// half a pixel, with alternating sign.
 double tolerance_of(const Patch& patch, double grid) {
   double variance = 0;
   for (const double h : patch.limits) variance += h * (1 - h) * (1.0 / (kSeeds * kSamples) + 1.0 / kReferenceSamples);

@@ -1,4 +1,4 @@
-// Structs of shaders/shared are laid out by C++ as the driver lays them out in storage buffers.
+// Structs of shaders/shared are laid out by C++ as the driver lays them out in the blocks they are bound to.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -63,7 +63,8 @@ std::vector<Struct> all_structs() {
       {"primitive_plane",
        "PrimitivePlane",
        sizeof(shared::PrimitivePlane),
-       {LFD_AT(PrimitivePlane, normal_offset), LFD_AT(PrimitivePlane, z_range)}},
+       {LFD_AT(PrimitivePlane, normal_offset), LFD_AT(PrimitivePlane, range), LFD_AT(PrimitivePlane, inside_0),
+        LFD_AT(PrimitivePlane, inside_1)}},
   };
 }
 
@@ -72,12 +73,16 @@ struct Layout {
   std::size_t stride = 0;  // of an array of them
 };
 
+std::string source_of(const Struct& one, const std::string& block, const std::string& main) {
+  return std::string("#version 450 core\nlayout(local_size_x = 1) in;\n#include \"shared/") + one.file + ".glsl\"\n" +
+         block + "\nvoid main() { " + main + " }\n";
+}
+
 // What the driver makes of `readonly buffer { S all[]; }`.
-Layout layout_of(const Struct& one) {
-  const std::string text = std::string("#version 450 core\nlayout(local_size_x = 1) in;\n#include \"shared/") +
-                           one.file + ".glsl\"\n" + "layout(std430, binding = 0) buffer All { " + one.name +
-                           " all[]; };\n" +
-                           "void main() { all[gl_GlobalInvocationID.x] = all[gl_GlobalInvocationID.x + 1u]; }\n";
+Layout storage_layout_of(const Struct& one) {
+  const std::string text =
+      source_of(one, std::string("layout(std430, binding = 0) buffer All { ") + one.name + " all[]; };",
+                "all[gl_GlobalInvocationID.x] = all[gl_GlobalInvocationID.x + 1u];");
   auto program = gl::make_compute_program(text);
   EXPECT_TRUE(program) << program.error().message();
   if (!program) return {};
@@ -97,10 +102,45 @@ Layout layout_of(const Struct& one) {
   return layout;
 }
 
+// What the driver makes of `uniform { S all[2]; }`; the stride is what lies between the two.
+Layout uniform_layout_of(const Struct& one) {
+  std::string sum = "vec4 sum = vec4(0.0);";
+  for (const auto& [field, offset] : one.offset) {
+    for (const char* k : {"0", "1"}) sum += std::string(" sum += vec4(all[") + k + "]." + field + ");";
+  }
+  const std::string text = source_of(one,
+                                     std::string("layout(std140, binding = 0) uniform All { ") + one.name +
+                                         " all[2]; };\nlayout(std430, binding = 1) buffer Out { vec4 out_sum; };",
+                                     sum + " out_sum = sum;");
+  auto program = gl::make_compute_program(text);
+  EXPECT_TRUE(program) << program.error().message();
+  if (!program) return {};
+  Layout layout;
+  for (const auto& [field, offset] : one.offset) {
+    GLint offsets[2] = {-1, -1};
+    for (int k = 0; k < 2; ++k) {
+      const std::string name = "all[" + std::to_string(k) + "]." + field;
+      const char* const text_of_name = name.c_str();
+      GLuint index = GL_INVALID_INDEX;
+      glGetUniformIndices(program->name(), 1, &text_of_name, &index);
+      EXPECT_NE(index, GL_INVALID_INDEX) << name;
+      if (index != GL_INVALID_INDEX) glGetActiveUniformsiv(program->name(), 1, &index, GL_UNIFORM_OFFSET, &offsets[k]);
+    }
+    layout.offset[field] = static_cast<std::size_t>(offsets[0]);
+    layout.stride = static_cast<std::size_t>(offsets[1] - offsets[0]);
+  }
+  return layout;
+}
+
+// Those that shaders read from uniform blocks.
+bool is_uniform(const Struct& one) {
+  return std::set<std::string>{"AoParams", "FrameParams", "ModuleParams"}.contains(one.name);
+}
+
 TEST(SharedStructs, AreLaidOutAlikeInBothLanguages) {
   testing_support::context();
   for (const Struct& one : all_structs()) {
-    const Layout layout = layout_of(one);
+    const Layout layout = is_uniform(one) ? uniform_layout_of(one) : storage_layout_of(one);
     EXPECT_EQ(layout.offset, one.offset) << one.name;
     EXPECT_EQ(layout.stride, one.size) << one.name;
   }

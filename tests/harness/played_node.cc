@@ -98,6 +98,8 @@ void PlayedNode::answer(std::uint64_t frame) {
   ready.mutable_ready()->set_frame(frame);
   ready.mutable_ready()->mutable_report()->set_node(name_);
   ready.mutable_ready()->mutable_report()->set_state_hash(state_hash());
+  ready.mutable_ready()->mutable_report()->set_error(habits.error);
+  ready.mutable_ready()->mutable_report()->set_renderer(std::string(habits.report_bytes, 'x'));
   send(ready);
 }
 

@@ -24,8 +24,10 @@ class PlayedNode {
     std::string calibration_hash;
     std::string images_endpoint;  // of a display
     std::uint64_t process = 1;
-    bool beats = true;  // heartbeats
-    bool draws = true;  // answers begin with drawn and ready
+    bool beats = true;             // heartbeats
+    bool draws = true;             // answers begin with drawn and ready
+    std::string error = {};        // with which it cannot draw; empty: it can
+    std::size_t report_bytes = 0;  // its reports are at least so long
   };
 
   PlayedNode(std::string name, const std::string& endpoint) : PlayedNode(std::move(name), endpoint, Habits()) {}

@@ -21,7 +21,8 @@ inline gl::Context& context() {
   return *kContext;
 }
 
-inline proto::State state_of(const SceneData& data, const RegionOfInterest& roi, const proto::RenderSettings& render = {}) {
+inline proto::State state_of(const SceneData& data, const RegionOfInterest& roi,
+                             const proto::RenderSettings& render = {}) {
   proto::State state;
   state.set_sequence(1);
   *state.mutable_scene() = data.scene;
@@ -37,7 +38,8 @@ inline BufferSet buffers(std::initializer_list<proto::BufferKind> kinds) {
 }
 
 // One frame drawn and collected; fails the test where the renderer reports an error.
-inline FrameResult draw_once(Renderer& renderer, const proto::State& state, const Assets& assets, FrameOptions options) {
+inline FrameResult draw_once(Renderer& renderer, const proto::State& state, const Assets& assets,
+                             FrameOptions options) {
   const Status status = renderer.set_state(state, assets);
   EXPECT_TRUE(status) << (status ? "" : status.error().message());
   if (!status) return {};

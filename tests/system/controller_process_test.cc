@@ -180,6 +180,38 @@ TEST(ControllerProcess, DrawsAsManyFramesAsAskedForAndReportsThem) {
   EXPECT_THAT(left.begun, ElementsAre(0, 1, 2));
 }
 
+// Asks for two frames while the nodes play.
+proto::Reply reply_to_two_frames(const RunningController& controller, std::initializer_list<PlayedNode*> nodes) {
+  ControlClient client = client_of(controller);
+  proto::Request request;
+  request.mutable_frames()->set_count(2);
+  const auto id = client.send(request, kPatience);
+  EXPECT_TRUE(id);
+  std::optional<proto::Reply> reply;
+  EXPECT_TRUE(play_until(nodes, [&] { return (reply = client.receive(*id, 0s)).has_value(); }));
+  return reply.value_or(proto::Reply());
+}
+
+TEST(ControllerProcess, AnswersWithTheErrorOfANodeThatCannotDraw) {
+  const Workbench bench;
+  const auto controller = start_controller(bench.deployment(kQuick), {"--idle"});
+  PlayedNode left("left", controller.endpoint), right("right", controller.endpoint);
+  left.habits.error = "out of memory";
+  EXPECT_EQ(reply_to_two_frames(controller, {&left, &right}).error(), "node \"left\": frame 0: out of memory");
+  ASSERT_TRUE(play_until({&left, &right}, [&] { return right.swaps.size() == 2; }));
+  for (const proto::SwapFrame& swap : right.swaps) EXPECT_THAT(swap.stale_modules(), ElementsAre(0, 1));
+}
+
+TEST(ControllerProcess, AnswersWithAnErrorWhereTheReportsFitIntoNoMessage) {
+  const Workbench bench;
+  const auto controller = start_controller(bench.deployment(kQuick), {"--idle"});
+  PlayedNode left("left", controller.endpoint), right("right", controller.endpoint);
+  left.habits.report_bytes = std::size_t{35} << 20;  // two of them exceed 64 MiB
+  EXPECT_THAT(reply_to_two_frames(controller, {&left, &right}).error(), HasSubstr("ask for fewer frames"));
+  left.habits.report_bytes = 0;
+  EXPECT_FALSE(status_of(controller).scene().empty());
+}
+
 TEST(ControllerProcess, KeepsTheRunningSceneWhenAnotherIsBroken) {
   const Workbench bench;
   const auto controller = start_controller(bench.deployment(kQuick));

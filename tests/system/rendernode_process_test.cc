@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr auto kPatience = 60s;  // a software rasteriser starts slowly on a busy machine
 
-std::unique_ptr<Process> start_node(const fs::path& deployment, const std::string& name, const std::string& controller) {
+std::unique_ptr<Process> start_node(const fs::path& deployment, const std::string& name,
+                                    const std::string& controller) {
   return start_program("lfd-rendernode", {deployment, "--name", name, "--controller", controller});
 }
 
@@ -29,7 +30,8 @@ bool appears(const fs::path& path, Process& process) {
 
 TEST(RendernodeProcess, WritesItsOwnFilesAndALateNodeTakesPart) {
   const Workbench bench;
-  const auto deployment = bench.deployment("sink: FILES files: \"frames\" pacing { heartbeat_ms: 100 frames_per_second: 5 }");
+  const auto deployment =
+      bench.deployment("sink: FILES files: \"frames\" pacing { heartbeat_ms: 100 frames_per_second: 5 }");
   const RunningController controller = start_controller(deployment);
   const auto left = start_node(deployment, "left", controller.endpoint);
   ASSERT_TRUE(appears(bench.folder() / "frames/frame-0001/module-001.color.png", *left));

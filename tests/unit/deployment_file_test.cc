@@ -17,16 +17,16 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 constexpr std::string_view kText =
-    "name: \"wall\"\n"                                                               // 1
-    "display: \"desk.textproto\"\n"                                                  // 2
-    "scene {\n file: \"scenes/a.glb\" }\n"                                           // 3, 4
-    "roi {\n world_size { x: 1 y: 1 z: 1 } }\n"                                      // 5, 6
-    "render {\n ao {\n  samples: 8 }\n}\n"                                           // 7 to 10
-    "node { name: \"a\"\n modules: \"0-2\"\n modules: \"4\" }\n"                     // 11, 12, 13
-    "node {\n name: \"b\"\n modules: \"3\" }\n"                                      // 14, 15, 16
-    "sink: FILES\n"                                                                  // 17
+    "name: \"wall\"\n"                                                                       // 1
+    "display: \"desk.textproto\"\n"                                                          // 2
+    "scene {\n file: \"scenes/a.glb\" }\n"                                                   // 3, 4
+    "roi {\n world_size { x: 1 y: 1 z: 1 } }\n"                                              // 5, 6
+    "render {\n ao {\n  samples: 8 }\n}\n"                                                   // 7 to 10
+    "node { name: \"a\"\n modules: \"0-2\"\n modules: \"4\" }\n"                             // 11, 12, 13
+    "node {\n name: \"b\"\n modules: \"3\" }\n"                                              // 14, 15, 16
+    "sink: FILES\n"                                                                          // 17
     "addresses {\n control: \"tcp://127.0.0.1:5550\"\n state: \"tcp://127.0.0.1:5551\" }\n"  // 18, 19, 20
-    "pacing {\n deadline_ms: 100\n heartbeat_ms: 250 }\n";                           // 21, 22, 23
+    "pacing {\n deadline_ms: 100\n heartbeat_ms: 250 }\n";                                   // 21, 22, 23
 
 // The folder of one test with a display of eight modules in it, gone when the test ends.
 class DeploymentFile : public testing::Test {

@@ -94,7 +94,7 @@ TEST(AssetGatherer, PiecesThatDoNotFitAreRefused) {
   chunk.set_offset(200);
   EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x')));  // past the end
   chunk.set_offset(0);
-  EXPECT_FALSE(gatherer.piece_came(chunk, std::string(10, 'x')));   // short
+  EXPECT_FALSE(gatherer.piece_came(chunk, std::string(10, 'x')));  // short
   chunk.set_total(AssetGatherer::kMaxAsset_bytes + 1);
   EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x')));  // absurd
 }

@@ -117,8 +117,8 @@ TEST(RendernodeGeometry, EveryCornerLiesOnItsPlane) {
           static_cast<double>(plane.normal_offset.z) * p[2] - static_cast<double>(plane.normal_offset.w);
       EXPECT_NEAR(beside, 0, 1e-6);
       // Ranges of z are those of the scene's triangles, before they were cut.
-      EXPECT_GE(p[2], plane.z_range.x);
-      EXPECT_LE(p[2], plane.z_range.y);
+      EXPECT_GE(p[2], plane.range.x);
+      EXPECT_LE(p[2], plane.range.y);
     }
   });
 }
