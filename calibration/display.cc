@@ -2,6 +2,8 @@
 #include "calibration/display.h"
 
 #include <cmath>
+#include <numbers>
+#include <type_traits>
 
 #include "base/log.h"
 
@@ -19,6 +21,8 @@ Status validate_map(const PinholeMap& map) {
   if (auto status = validate(map); !status) return status.error().within("pinhole");
   return {};
 }
+
+Status validate_map(const GridMap&) { return {}; }  // was checked when it was made
 
 Status validate_module(const ModuleCalibration& module) {
   LFD_TRY_STATUS(validate(module.emitter));
@@ -41,6 +45,11 @@ Status validate(const DisplayCalibration& display) {
     }
   }
   if (auto status = validate(display.optics); !status) return status.error().within("optics");
+  const double radius = std::abs(display.optics.screen_radius_m);
+  if (radius > 0 && !(display.screen.width_m < std::numbers::pi * radius)) {
+    return Error(fmt::format("screen: width_m: {} is more than half of the cylinder's circumference, {:.6g}",
+                             display.screen.width_m, std::numbers::pi * radius));
+  }
   if (display.modules.empty() || display.modules.size() > kMaxModules) {
     return Error(fmt::format("module: {} of them; 1 to {} are possible", display.modules.size(), kMaxModules));
   }
@@ -55,14 +64,15 @@ Status validate(const DisplayCalibration& display) {
 std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module,
                                             ScreenPoint s) {
   if (!contains(display.screen, s)) return std::nullopt;
-  std::optional<PixelPoint> p;
-  if (const auto* ideal = std::get_if<IdealMap>(&module.map)) {
-    p = image_from_screen(*ideal, display.screen, display.image, s);
-  } else if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
-    p = image_from_screen(*homography, s);
-  } else {
-    p = image_from_screen(std::get<PinholeMap>(module.map), s);
-  }
+  const auto p = std::visit(
+      [&](const auto& map) -> std::optional<PixelPoint> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(map)>, IdealMap>) {
+          return image_from_screen(map, display.screen, display.image, s);
+        } else {
+          return image_from_screen(map, s);
+        }
+      },
+      module.map);
   if (!p || !contains(display.image, *p)) return std::nullopt;
   return p;
 }
@@ -70,14 +80,15 @@ std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, c
 std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module,
                                              PixelPoint p) {
   if (!contains(display.image, p)) return std::nullopt;
-  std::optional<ScreenPoint> s;
-  if (const auto* ideal = std::get_if<IdealMap>(&module.map)) {
-    s = screen_from_image(*ideal, display.screen, display.image, p);
-  } else if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
-    s = screen_from_image(*homography, p);
-  } else {
-    s = screen_from_image(std::get<PinholeMap>(module.map), p);
-  }
+  const auto s = std::visit(
+      [&](const auto& map) -> std::optional<ScreenPoint> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(map)>, IdealMap>) {
+          return screen_from_image(map, display.screen, display.image, p);
+        } else {
+          return screen_from_image(map, p);
+        }
+      },
+      module.map);
   if (!s || !contains(display.screen, *s)) return std::nullopt;
   return s;
 }

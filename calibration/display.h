@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "calibration/maps/grid.h"
 #include "calibration/maps/homography.h"
 #include "calibration/maps/ideal.h"
 #include "calibration/maps/pinhole.h"
@@ -16,7 +17,7 @@
 
 namespace lfd {
 
-using ScreenMap = std::variant<IdealMap, HomographyMap, PinholeMap>;
+using ScreenMap = std::variant<IdealMap, HomographyMap, PinholeMap, GridMap>;
 
 struct ModuleCalibration {
   Emitter emitter;

@@ -3,10 +3,76 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "base/log.h"
+#include "calibration/curved_screen.h"
 
 namespace lfd {
+namespace {
+
+// A horizontal ray of a curved screen, by path lengths from the emitter.
+struct CurvedRay {
+  glm::dvec2 direction;  // unit, (x, z)
+  double to_screen = 0, to_observers = 0;
+};
+
+// The ray from the emitter through `through` (x, z). Absent where the two coincide, where it does not cross the screen
+// toward the viewer, or does not reach the observers after that.
+std::optional<CurvedRay> curved_ray(const Optics& optics, const Emitter& emitter, glm::dvec2 through) {
+  const CurvedScreen screen(optics.screen_radius_m);
+  const glm::dvec2 from(emitter.x, emitter.z);
+  const double length = glm::length(through - from);
+  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+  CurvedRay ray;
+  ray.direction = (through - from) / length;
+  const auto to_screen = screen.rise_through(from, ray.direction, 0);
+  if (!to_screen || !(*to_screen > 0)) return std::nullopt;
+  ray.to_screen = *to_screen;
+  const double vz = optics.observer_distance_m;
+  if (optics.observer_arc) {
+    const auto to_observers = screen.rise_through(from, ray.direction, screen.level({0, vz}));
+    if (!to_observers) return std::nullopt;
+    ray.to_observers = *to_observers;
+  } else {
+    if (!(ray.direction.y > 0)) return std::nullopt;
+    ray.to_observers = (vz - emitter.z) / ray.direction.y;
+  }
+  if (!(ray.to_observers > ray.to_screen)) return std::nullopt;
+  return ray;
+}
+
+std::optional<OnScreen> on_curved_screen(const Optics& optics, const Emitter& emitter, Point3<Physical> p) {
+  const auto ray = curved_ray(optics, emitter, {p.x, p.z});
+  if (!ray) return std::nullopt;
+  const double to_point = glm::length(glm::dvec2(p.x - emitter.x, p.z - emitter.z));
+  if (!(to_point < ray->to_observers)) return std::nullopt;
+  const double behind = ray->to_observers - to_point, whole = ray->to_observers - ray->to_screen;
+  const glm::dvec2 at = glm::dvec2(emitter.x, emitter.z) + ray->to_screen * ray->direction;
+  const auto s = CurvedScreen(optics.screen_radius_m).arc_length_of(at);
+  if (!s) return std::nullopt;
+  const double vy = optics.observer_height_m;
+  return OnScreen{{*s, vy + (p.y - vy) * (whole / behind)},
+                  optics.observer_distance_m * ((to_point - ray->to_screen) / whole),
+                  to_point / ray->to_screen};
+}
+
+std::optional<OnScreen> on_planar_screen(const Optics& optics, const Emitter& emitter, Point3<Physical> p) {
+  const double vz = optics.observer_distance_m;
+  const double vy = optics.observer_height_m;
+  if (!(p.z > emitter.z) || !(p.z < vz)) return std::nullopt;
+  const double sy = vy + (p.y - vy) * (vz / (vz - p.z));
+  if (optics.diffuser == Diffuser::kLinear) {
+    // Not (x + ex k z / vz) / (1 + k z / vz): near the emitter plane that loses every digit.
+    const double w = (p.z - emitter.z) / -emitter.z;
+    return OnScreen{{emitter.x + (p.x - emitter.x) * (-emitter.z / (p.z - emitter.z)), sy}, p.z, w};
+  }
+  const double w = 1 + convergence(optics, emitter, sy) * (p.z / vz);
+  if (!(w > 0)) return std::nullopt;
+  return OnScreen{{emitter.x + (p.x - emitter.x) / w, sy}, p.z, w};
+}
+
+}  // namespace
 
 Status validate(const Optics& optics) {
   const double vz = optics.observer_distance_m;
@@ -14,6 +80,21 @@ Status validate(const Optics& optics) {
   if (!(vz > 0) || !std::isfinite(vz)) {
     return Error(
         fmt::format("observer_distance_m: {} must be positive and finite: the observer stands before the screen", vz));
+  }
+  if (!std::isfinite(optics.screen_radius_m)) return Error("screen_radius_m: must be finite; 0 is a planar screen");
+  if (optics.screen_radius_m == 0) {
+    if (optics.observer_arc) return Error("observer_arc: a planar screen has no concentric arcs");
+    return {};
+  }
+  if (optics.diffuser == Diffuser::kConical) {
+    return Error("diffuser: CONICAL on a curved screen is not supported; curved screens have linear diffusers");
+  }
+  if (optics.observer_arc && !(optics.screen_radius_m + vz > 0) && !(optics.screen_radius_m + vz < 0)) {
+    return Error("observer_arc: the observers would stand on the screen's axis");
+  }
+  if (optics.observer_arc && optics.screen_radius_m < 0 && vz >= -optics.screen_radius_m) {
+    return Error(fmt::format("observer_arc: at {} m it lies beyond the axis of the concave screen, {} m before it", vz,
+                             -optics.screen_radius_m));
   }
   return {};
 }
@@ -31,35 +112,52 @@ double convergence(const Optics& optics, const Emitter& emitter, double sy) {
   return std::hypot(optics.observer_height_m - sy, vz) / std::hypot(sy - emitter.y, emitter.z);
 }
 
+std::optional<OnScreen> on_screen(const Optics& optics, const Emitter& emitter, Point3<Physical> p) {
+  const auto found =
+      optics.screen_radius_m == 0 ? on_planar_screen(optics, emitter, p) : on_curved_screen(optics, emitter, p);
+  if (!found || !is_finite(found->at) || !std::isfinite(found->depth) || !std::isfinite(found->w)) return std::nullopt;
+  return found;
+}
+
 std::optional<ScreenPoint> screen_from_physical(const Optics& optics, const Emitter& emitter, Point3<Physical> p) {
-  const double vz = optics.observer_distance_m;
-  const double vy = optics.observer_height_m;
-  if (!(p.z > emitter.z) || !(p.z < vz)) return std::nullopt;
-  const double sy = vy + (p.y - vy) * (vz / (vz - p.z));
-  double sx = 0;
-  if (optics.diffuser == Diffuser::kLinear) {
-    // Not (x + ex k z / vz) / (1 + k z / vz): near the emitter plane that loses every digit.
-    sx = emitter.x + (p.x - emitter.x) * (-emitter.z / (p.z - emitter.z));
-  } else {
-    const double kz = convergence(optics, emitter, sy) * (p.z / vz);
-    if (!(1 + kz > 0)) return std::nullopt;
-    sx = emitter.x + (p.x - emitter.x) / (1 + kz);
-  }
-  const ScreenPoint s{sx, sy};
-  if (!is_finite(s)) return std::nullopt;
-  return s;
+  const auto found = on_screen(optics, emitter, p);
+  if (!found) return std::nullopt;
+  return found->at;
+}
+
+Point3<Physical> surface_point(const Optics& optics, ScreenPoint s) {
+  if (optics.screen_radius_m == 0) return {s.x, s.y, 0};
+  const glm::dvec2 q = CurvedScreen(optics.screen_radius_m).point_at(s.x);
+  return {q.x, s.y, q.y};
 }
 
 std::optional<PixelLine> line_of_screen_point(const Optics& optics, const Emitter& emitter, ScreenPoint s) {
   const double vz = optics.observer_distance_m;
-  const double ox = s.x + (s.x - emitter.x) * convergence(optics, emitter, s.y);
-  const PixelLine line{{s.x, s.y, 0}, {ox, optics.observer_height_m, vz}};
+  PixelLine line{surface_point(optics, s), {0, optics.observer_height_m, vz}, 0};
+  if (optics.screen_radius_m == 0) {
+    const double k = convergence(optics, emitter, s.y);
+    line.on_observer_line.x = s.x + (s.x - emitter.x) * k;
+    line.singular_depth = std::max(emitter.z, -vz / k);
+  } else {
+    const glm::dvec2 at(line.on_screen.x, line.on_screen.z);
+    const auto ray = curved_ray(optics, emitter, at);
+    // The crossing toward the viewer is here, not where the same ray meets the cylinder again.
+    if (!ray || !(glm::dot(CurvedScreen(optics.screen_radius_m).outward(at), ray->direction) > 0)) return std::nullopt;
+    const glm::dvec2 observer = at + (ray->to_observers - ray->to_screen) * ray->direction;
+    line.on_observer_line.x = observer.x;
+    line.on_observer_line.z = observer.y;
+    line.singular_depth = -vz * (ray->to_screen / (ray->to_observers - ray->to_screen));
+  }
   if (!is_finite(line.on_screen) || !is_finite(line.on_observer_line)) return std::nullopt;
   return line;
 }
 
-double nearest_singular_z(const Optics& optics, const Emitter& emitter, double sy) {
-  return std::max(emitter.z, -optics.observer_distance_m / convergence(optics, emitter, sy));
+double w_at_depth(const Optics& optics, const Emitter& emitter, ScreenPoint s, double depth) {
+  if (optics.screen_radius_m == 0) {
+    return 1 + convergence(optics, emitter, s.y) * (depth / optics.observer_distance_m);
+  }
+  const auto line = line_of_screen_point(optics, emitter, s);
+  return line ? 1 - depth / line->singular_depth : 0;
 }
 
 }  // namespace lfd

@@ -52,6 +52,15 @@ Result<PinholeMap> read_pinhole(const proto::Pinhole& m) {
   return map;
 }
 
+Result<GridMap> read_grid(const proto::Grid& m) {
+  if (!m.file().empty()) return Error(fmt::format("file: \"{}\" can only be read with the calibration file", m.file()));
+  GridNodes nodes{m.columns(), m.rows(), m.first_u_px(), m.first_v_px(), m.step_u_px(), m.step_v_px(), {}};
+  if (m.s_size() != m.y_size()) return Error(fmt::format("{} numbers s, but {} numbers y", m.s_size(), m.y_size()));
+  nodes.node.reserve(static_cast<std::size_t>(m.s_size()));
+  for (int i = 0; i < m.s_size(); ++i) nodes.node.push_back({m.s(i), m.y(i)});
+  return GridMap::make(std::move(nodes));
+}
+
 Result<ScreenMap> read_map(const proto::Module& m) {
   switch (m.map_case()) {
     case proto::Module::kIdeal:
@@ -66,10 +75,15 @@ Result<ScreenMap> read_map(const proto::Module& m) {
       if (!map) return map.error().within("pinhole");
       return ScreenMap(*map);
     }
+    case proto::Module::kGrid: {
+      const auto map = read_grid(m.grid());
+      if (!map) return map.error().within("grid");
+      return ScreenMap(*map);
+    }
     case proto::Module::MAP_NOT_SET:
       break;
   }
-  return Error("one of ideal, homography, pinhole is needed");
+  return Error("one of ideal, homography, pinhole, grid is needed");
 }
 
 Result<ModuleCalibration> read_module(const proto::Module& m) {
@@ -102,6 +116,21 @@ void write_map(proto::Module& m, const PinholeMap& map) {
   pinhole.set_p2(map.p2);
 }
 
+void write_map(proto::Module& m, const GridMap& map) {
+  const GridNodes& nodes = map.nodes();
+  auto& grid = *m.mutable_grid();
+  grid.set_columns(nodes.columns);
+  grid.set_rows(nodes.rows);
+  grid.set_first_u_px(nodes.first_u_px);
+  grid.set_first_v_px(nodes.first_v_px);
+  grid.set_step_u_px(nodes.step_u_px);
+  grid.set_step_v_px(nodes.step_v_px);
+  for (const ScreenPoint& s : nodes.node) {
+    grid.add_s(s.x);
+    grid.add_y(s.y);
+  }
+}
+
 }  // namespace
 
 Result<DisplayCalibration> read_calibration(const proto::DisplayCalibration& m) {
@@ -112,6 +141,8 @@ Result<DisplayCalibration> read_calibration(const proto::DisplayCalibration& m) 
   LFD_TRY(display.optics.diffuser, read_diffuser(m.optics().diffuser()));
   display.optics.observer_height_m = m.optics().observer_height_m();
   display.optics.observer_distance_m = m.optics().observer_distance_m();
+  display.optics.screen_radius_m = m.optics().screen_radius_m();
+  display.optics.observer_arc = m.optics().observer_arc();
   display.angular_scattering_rad = m.angular_scattering_rad();
   for (int k = 0; k < m.module_size(); ++k) {
     auto module = read_module(m.module(k));
@@ -133,6 +164,8 @@ proto::DisplayCalibration write_calibration(const DisplayCalibration& display) {
                                                                                 : proto::Optics::CONICAL);
   m.mutable_optics()->set_observer_height_m(display.optics.observer_height_m);
   m.mutable_optics()->set_observer_distance_m(display.optics.observer_distance_m);
+  m.mutable_optics()->set_screen_radius_m(display.optics.screen_radius_m);
+  m.mutable_optics()->set_observer_arc(display.optics.observer_arc);
   m.set_angular_scattering_rad(display.angular_scattering_rad);
   for (const ModuleCalibration& module : display.modules) {
     auto& to = *m.add_module();

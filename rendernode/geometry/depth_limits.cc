@@ -2,19 +2,25 @@
 #include "rendernode/geometry/depth_limits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace lfd {
 namespace {
 
-// convergence() of a conical diffuser is smooth and has at most a few extrema over the rows: a fine scan finds them.
-constexpr int kRows = 65;
+// Singular depths are smooth over the screen, with at most a few extrema: a fine scan finds them. On a planar screen
+// they depend on the height alone, on a curved one on the arc length alone.
+constexpr int kPlaces = 65;
 
 template <class Visit>
-void for_rows(const DisplayCalibration& display, Visit visit) {
+void for_places(const DisplayCalibration& display, Visit visit) {
   for (const auto& module : display.modules) {
-    for (int i = 0; i < kRows; ++i)
-      visit(module, display.screen.height_m * (static_cast<double>(i) / (kRows - 1) - 0.5));
+    for (int i = 0; i < kPlaces; ++i) {
+      const double share = static_cast<double>(i) / (kPlaces - 1) - 0.5;
+      const ScreenPoint s = display.optics.screen_radius_m == 0 ? ScreenPoint{0, share * display.screen.height_m}
+                                                                : ScreenPoint{share * display.screen.width_m, 0};
+      if (const auto line = line_of_screen_point(display.optics, module.emitter, s)) visit(module, s, *line);
+    }
   }
 }
 
@@ -23,17 +29,18 @@ void for_rows(const DisplayCalibration& display, Visit visit) {
 DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings& settings) {
   const double vz = display.optics.observer_distance_m;
   double singular = -std::numeric_limits<double>::infinity();
-  for_rows(display, [&](const ModuleCalibration& module, double sy) {
-    singular = std::max(singular, nearest_singular_z(display.optics, module.emitter, sy));
+  for_places(display, [&](const ModuleCalibration&, ScreenPoint, const PixelLine& line) {
+    singular = std::max(singular, line.singular_depth);
   });
+  if (!std::isfinite(singular)) singular = -vz;  // no module lights any of these places: nothing will be drawn
   DepthLimits limits;
   limits.front = std::min(settings.near_z_m.value_or(0.9 * vz), 0.999 * vz);
   limits.back = std::max(settings.far_z_m.value_or(0.95 * singular), 0.999 * singular);
   // Kept apart even where the deployment asks for limits outside of what can be shown.
   limits.back = std::min(limits.back, limits.front - 1e-6 * vz);
   double least_w = std::numeric_limits<double>::infinity();
-  for_rows(display, [&](const ModuleCalibration& module, double sy) {
-    least_w = std::min(least_w, 1 + convergence(display.optics, module.emitter, sy) * limits.back / vz);
+  for_places(display, [&](const ModuleCalibration& module, ScreenPoint s, const PixelLine&) {
+    least_w = std::min(least_w, w_at_depth(display.optics, module.emitter, s, limits.back));
   });
   limits.depth_scale = std::max(least_w, 1e-9) / (limits.front - limits.back);
   return limits;

@@ -6,10 +6,11 @@
 
 namespace lfd {
 
-// Physical z, metres. Geometry before `front` and behind `back` is cut away; every module has images in between.
+// Depths (calibration/optics.h), metres; on planar screens they are physical z. Geometry before `front` and behind
+// `back` is cut away; every module has images in between.
 struct DepthLimits {
   double front = 0, back = 0;
-  double depth_scale = 1;  // clip.z = depth_scale (front - z); at most w everywhere between the limits
+  double depth_scale = 1;  // clip.z = depth_scale (front - depth); at most w everywhere between the limits
 };
 
 // The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back

@@ -29,7 +29,7 @@ TEST_P(OpticsOf, PointsOfAPixelsLineAreShownByItsScreenPoint) {
     const ScreenPoint s{unit(random) - 0.5, unit(random) - 0.5};
     const auto line = line_of_screen_point(optics, emitter, s);
     ASSERT_TRUE(line);
-    const double behind = nearest_singular_z(optics, emitter, s.y) / optics.observer_distance_m;
+    const double behind = line->singular_depth / optics.observer_distance_m;
     const double t = behind + (1 - behind) * (0.01 + 0.98 * unit(random));
     const Point3<Physical> p = line->on_screen + t * (line->on_observer_line - line->on_screen);
     const auto back = screen_from_physical(optics, emitter, p);
@@ -100,7 +100,7 @@ TEST(Optics, TheWrongDiffuserMovesAPointByNinePixels) {
 TEST(Optics, ConicalPointsBehindTheMeetingPointAreRefused) {
   const Optics optics{Diffuser::kConical, 0, 3};
   const Emitter emitter{0, 0, -6};  // far away: the lines meet at about -6, nearer for points far above
-  const double z = nearest_singular_z({Diffuser::kConical, 0, 3}, {0, 0, -1}, 0.8);
+  const double z = line_of_screen_point({Diffuser::kConical, 0, 3}, {0, 0, -1}, {0, 0.8})->singular_depth;
   EXPECT_GT(z, -1.3);
   EXPECT_FALSE(screen_from_physical(optics, emitter, {0, 0, -6.1}));
 }

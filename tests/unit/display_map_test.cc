@@ -71,7 +71,7 @@ TEST(DisplayMap, PointsOfAPixelsLineLandInThePixel) {
         const PixelPoint pixel{unit(random) * display.image.width, unit(random) * display.image.height};
         const auto line = pixel_line(display, module, pixel);
         if (!line) continue;  // a pixel beside the screen
-        const double nearest = nearest_singular_z(display.optics, module.emitter, line->on_screen.y);
+        const double nearest = line->singular_depth;
         const double z = 0.9 * nearest + unit(random) * 0.9 * (display.optics.observer_distance_m - nearest);
         const double t = z / display.optics.observer_distance_m;
         const auto p =

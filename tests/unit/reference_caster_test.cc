@@ -21,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(Diffusers, CasterOf, testing::Values(Diffuser::kLinear,
 std::optional<Point3<Physical>> brute_force(const WorldScene& scene, const ModuleView& view, PixelPoint pixel) {
   const auto line = pixel_line(view.display, view.module, pixel);
   const glm::dvec3 o = to_glm(line->on_screen), d = to_glm(line->on_observer_line - line->on_screen);
-  const double singular = nearest_singular_z(view.display.optics, view.module.emitter, line->on_screen.y);
+  const double singular = line->singular_depth;
   std::optional<Point3<Physical>> best;
   for (const Triangle& t : scene.triangle) {
     const glm::dvec3 a = to_glm(scene.corner(t, 0).physical), b = to_glm(scene.corner(t, 1).physical),
