@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/log.h"
+#include "calibration/curved_screen.h"
 
 namespace lfd {
 namespace {
@@ -23,6 +24,22 @@ Status validate_map(const PinholeMap& map) {
 }
 
 Status validate_map(const GridMap&) { return {}; }  // was checked when it was made
+
+// Where the pinhole's ray of a pixel crosses the screen toward the viewer.
+std::optional<ScreenPoint> pinhole_on_screen(const Optics& optics, const PinholeMap& map, PixelPoint p) {
+  if (optics.screen_radius_m == 0) return screen_from_image(map, p);
+  const auto direction = direction_of_pixel(map, p);
+  if (!direction) return std::nullopt;
+  const double horizontal = std::hypot(direction->x, direction->z);
+  if (!(horizontal > 0)) return std::nullopt;
+  const CurvedScreen screen(optics.screen_radius_m);
+  const glm::dvec2 from(map.position.x, map.position.z), along(direction->x / horizontal, direction->z / horizontal);
+  const auto distance = screen.rise_through(from, along, 0);
+  if (!distance || !(*distance > 0)) return std::nullopt;
+  const auto s = screen.arc_length_of(from + *distance * along);
+  if (!s) return std::nullopt;
+  return ScreenPoint{*s, map.position.y + *distance * (direction->y / horizontal)};
+}
 
 Status validate_module(const ModuleCalibration& module) {
   LFD_TRY_STATUS(validate(module.emitter));
@@ -66,11 +83,11 @@ std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, c
   if (!contains(display.screen, s)) return std::nullopt;
   const auto p = std::visit(
       [&](const auto& map) -> std::optional<PixelPoint> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(map)>, IdealMap>) {
-          return image_from_screen(map, display.screen, display.image, s);
-        } else {
+        using Map = std::decay_t<decltype(map)>;
+        if constexpr (std::is_same_v<Map, IdealMap>) return image_from_screen(map, display.screen, display.image, s);
+        if constexpr (std::is_same_v<Map, PinholeMap>) return image_from_point(map, surface_point(display.optics, s));
+        if constexpr (std::is_same_v<Map, HomographyMap> || std::is_same_v<Map, GridMap>)
           return image_from_screen(map, s);
-        }
       },
       module.map);
   if (!p || !contains(display.image, *p)) return std::nullopt;
@@ -82,11 +99,11 @@ std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, 
   if (!contains(display.image, p)) return std::nullopt;
   const auto s = std::visit(
       [&](const auto& map) -> std::optional<ScreenPoint> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(map)>, IdealMap>) {
-          return screen_from_image(map, display.screen, display.image, p);
-        } else {
+        using Map = std::decay_t<decltype(map)>;
+        if constexpr (std::is_same_v<Map, IdealMap>) return screen_from_image(map, display.screen, display.image, p);
+        if constexpr (std::is_same_v<Map, PinholeMap>) return pinhole_on_screen(display.optics, map, p);
+        if constexpr (std::is_same_v<Map, HomographyMap> || std::is_same_v<Map, GridMap>)
           return screen_from_image(map, p);
-        }
       },
       module.map);
   if (!s || !contains(display.screen, *s)) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -159,6 +160,57 @@ DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t se
         with_errors(pinhole_of_ideal(display.screen, display.image, module.emitter), display.image, random);
     module = {map.position, map};
   }
+  return result;
+}
+
+Result<DisplayCalibration> measured(const DisplayCalibration& display, int columns, int rows, double bump_px,
+                                    std::uint64_t seed) {
+  DisplayCalibration result = display;
+  result.name += fmt::format("-measured-{}", seed);
+  Random random(seed);
+  // Where the map goes beside the screen, it is asked as if the screen were larger.
+  DisplayCalibration wide = display;
+  wide.screen = {3 * display.screen.width_m, 3 * display.screen.height_m};
+  for (std::size_t k = 0; k < result.modules.size(); ++k) {
+    const ImageSize image = display.image;
+    GridNodes nodes{columns, rows, 0, 0, image.width / (columns - 1.0), image.height / (rows - 1.0), {}};
+    const double along_u = 2 + random.normal(), along_v = 2 + random.normal(), phase = 3 * random.normal();
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const PixelPoint place = nodes.place(column, row);
+        const double a = along_u * place.x / image.width + phase, b = along_v * place.y / image.height - phase;
+        const PixelPoint moved{place.x + bump_px * std::sin(b + std::cos(a)),
+                               place.y + bump_px * std::cos(a - std::sin(b))};
+        const auto s = std::holds_alternative<IdealMap>(display.modules[k].map)
+                           ? std::optional(screen_from_image(IdealMap{}, display.screen, image, moved))
+                           : screen_from_image(wide, display.modules[k],
+                                               {std::clamp(moved.x, 0.0, image.width - 1e-9),
+                                                std::clamp(moved.y, 0.0, image.height - 1e-9)});
+        const double hole = std::numeric_limits<double>::quiet_NaN();
+        nodes.node.push_back(s ? ScreenPoint{rounded(s->x), rounded(s->y)} : ScreenPoint{hole, hole});
+      }
+    }
+    auto map = GridMap::make(std::move(nodes));
+    if (!map) return map.error().within(fmt::format("module {}", k));
+    result.modules[k].map = *map;
+  }
+  return result;
+}
+
+Result<DisplayCalibration> curved(const DisplayCalibration& display, double radius_m, bool observer_arc) {
+  DisplayCalibration result = display;
+  result.name += radius_m > 0 ? "-convex" : "-concave";
+  result.optics.screen_radius_m = radius_m;
+  result.optics.observer_arc = observer_arc;
+  LFD_TRY_STATUS(validate(result));
+  for (ModuleCalibration& module : result.modules) {
+    // The emitter's place before a plane (arc length, distance) is kept before the arc.
+    const Point3<Physical> at = surface_point(result.optics, {module.emitter.x, module.emitter.y});
+    const double angle = module.emitter.x / radius_m, distance = module.emitter.z;
+    module.emitter = {rounded(at.x + distance * std::sin(angle)), module.emitter.y,
+                      rounded(at.z + distance * std::cos(angle))};
+  }
+  LFD_TRY_STATUS(validate(result));
   return result;
 }
 

@@ -34,4 +34,15 @@ PinholeMap pinhole_of_ideal(ScreenSize screen, ImageSize image, const Emitter& e
 // are. Equal seeds give equal displays.
 DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t seed);
 
+// The same display as if it had been measured: every map becomes a grid of columns x rows nodes over the image, each
+// where the map and a smooth warp of its own, of up to about `bump_px` pixels, put it; holes where the map has none.
+// The screen is taken to go on beside its border, so that images that reach beyond it have nodes there. Errors: those
+// of GridMap::make, with the module.
+Result<DisplayCalibration> measured(const DisplayCalibration& display, int columns, int rows, double bump_px,
+                                    std::uint64_t seed);
+
+// The same display with its screen bent to a cylinder (Optics: screen_radius_m, observer_arc) and its emitters moved
+// along, so that each stands to the screen as before. Errors: those of validate().
+Result<DisplayCalibration> curved(const DisplayCalibration& display, double radius_m, bool observer_arc);
+
 }  // namespace lfd

@@ -125,7 +125,8 @@ double log_weight(const DisplayCalibration& display, const ModuleCalibration& mo
   const Emitter& e = module.emitter;
   double difference = 0;
   if (display.optics.diffuser == Diffuser::kLinear) {
-    difference = std::atan2(s.x - e.x, -e.z) - std::atan2(eye.x - s.x, eye.z);
+    const Point3<Physical> at = surface_point(display.optics, s);
+    difference = std::atan2(at.x - e.x, at.z - e.z) - std::atan2(eye.x - at.x, eye.z - at.z);
   } else {
     difference = (s.x - e.x) / std::hypot(s.y - e.y, e.z) - (eye.x - s.x) / std::hypot(eye.y - s.y, eye.z);
   }

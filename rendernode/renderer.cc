@@ -14,7 +14,8 @@ Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::
     : display_(std::move(display)),
       modules_(std::move(modules)),
       description_(context.description()),
-      gpu_modules_(upload_modules(display_, modules_)),
+      tables_(warp_tables(display_, modules_)),
+      gpu_modules_(upload_modules(display_, modules_, tables_)),
       targets_(display_.image, static_cast<int>(modules_.size())) {
   LFD_CHECK(modules_.size() <= MODULES_PER_NODE, "more modules than a node can have");
 }
@@ -46,7 +47,7 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   std::unique_ptr<EdgeRule> rule;
   if (new_rule) {
     limits = depth_limits(display_, settings);
-    rule = std::make_unique<EdgeRule>(display_, modules_, limits, settings.subdivision_px);
+    rule = std::make_unique<EdgeRule>(display_, modules_, tables_, limits, settings.subdivision_px);
   }
   std::optional<PhysicalGeometry> geometry;
   if (new_geometry) {

@@ -90,6 +90,7 @@ class Renderer {
   DisplayCalibration display_;
   std::vector<std::uint32_t> modules_;
   std::string description_;
+  WarpTables tables_;
   GpuModules gpu_modules_;
   FramePasses passes_;
   Targets targets_;

@@ -14,11 +14,11 @@ constexpr int kSamplesPerBatch = 1024;
 
 bool is_hidden(const Intersector& intersector, const ModuleView& view, Point3<Physical> sample) {
   if (!image_from_physical(view.display, view.module, sample)) return false;
-  const auto on_screen = screen_from_physical(view.display.optics, view.module.emitter, sample);
-  const auto line = line_of_screen_point(view.display.optics, view.module.emitter, *on_screen);
+  const auto shown = on_screen(view.display.optics, view.module.emitter, sample);
+  const auto line = line_of_screen_point(view.display.optics, view.module.emitter, shown->at);
   const auto way = line ? visible_way(view, *line) : std::nullopt;
-  if (!way || sample.z >= way->nearest.z) return false;
-  return intersector.is_blocked(way->nearest, sample.z > way->farthest.z ? sample : way->farthest);
+  if (!way || shown->depth >= way->nearest_depth) return false;
+  return intersector.is_blocked(way->nearest, shown->depth > way->farthest_depth ? sample : way->farthest);
 }
 
 // Uniform in the shell between `shell` and 1.

@@ -10,11 +10,12 @@ namespace lfd::reference {
 std::optional<VisibleWay> visible_way(const ModuleView& view, const PixelLine& line) {
   const Optics& optics = view.display.optics;
   const double vz = optics.observer_distance_m;
-  const double z_nearest = std::min(vz, view.limits.near_z_m),
-               z_farthest = std::max(line.singular_depth, view.limits.far_z_m);
-  if (!(z_farthest < z_nearest)) return std::nullopt;
+  const double nearest = std::min(vz, view.limits.near_z_m),
+               farthest = std::max(line.singular_depth, view.limits.far_z_m);
+  if (!(farthest < nearest)) return std::nullopt;
   const Vector3<Physical> along = line.on_observer_line - line.on_screen;
-  return VisibleWay{line.on_screen + (z_nearest / vz) * along, line.on_screen + (z_farthest / vz) * along};
+  return VisibleWay{line.on_screen + (nearest / vz) * along, line.on_screen + (farthest / vz) * along, nearest,
+                    farthest};
 }
 
 std::optional<Hit> cast_point(const Intersector& intersector, const ModuleView& view, PixelPoint p) {

@@ -26,14 +26,15 @@ struct HitImage {
   }
 };
 
-// The part of a line that can show a surface, from the observer's side to the far one: z from min(vz, near) to
+// The part of a line that can show a surface, from the observer's side to the far one: depths from min(vz, near) to
 // max(singular, far). Absent where that is empty. Source: design geometry, section 2.
 struct VisibleWay {
   Point3<Physical> nearest, farthest;
+  double nearest_depth = 0, farthest_depth = 0;  // metres
 };
 std::optional<VisibleWay> visible_way(const ModuleView& view, const PixelLine& line);
 
-// The surface of largest z on the line of an image point (any point, not centres alone).
+// The surface of largest depth on the line of an image point (any point, not centres alone).
 std::optional<Hit> cast_point(const Intersector& intersector, const ModuleView& view, PixelPoint p);
 
 // The same for the centres of all pixels, on all cores; the result does not depend on their number.

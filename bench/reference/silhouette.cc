@@ -39,8 +39,16 @@ class Neighbours {
   }
 
  private:
-  static Point3<Physical> at_depth(const PixelLine& line, double z) {
-    return line.on_screen + (z / line.on_observer_line.z) * (line.on_observer_line - line.on_screen);
+  double whole_depth() const { return view_.display.optics.observer_distance_m; }
+
+  Point3<Physical> at_depth(const PixelLine& line, double depth) const {
+    return line.on_screen + (depth / whole_depth()) * (line.on_observer_line - line.on_screen);
+  }
+
+  // Of a point on the line.
+  double depth_of(const PixelLine& line, Point3<Physical> p) const {
+    const Vector3<Physical> along = line.on_observer_line - line.on_screen;
+    return whole_depth() * (dot(p - line.on_screen, along) / dot(along, along));
   }
 
   // Depth at which a line meets the plane of another hit's triangle; not finite where it is parallel.
@@ -49,13 +57,14 @@ class Neighbours {
     const auto corner = [&](int i) { return intersector_.scene().corner(t, i).physical; };
     const Vector3<Physical> normal = cross(corner(1) - corner(0), corner(2) - corner(0));
     const Vector3<Physical> along = line.on_observer_line - line.on_screen;
-    return dot(normal, hit.physical - line.on_screen) / dot(normal, along) * along.z;
+    return dot(normal, hit.physical - line.on_screen) / dot(normal, along) * whole_depth();
   }
 
   bool planes_explain(const PixelLine& line_p, const Hit& p, const PixelLine& line_q, const Hit& q,
                       double pitch) const {
-    const double by_p = depth_on_plane(line_q, p) - p.physical.z, by_q = q.physical.z - depth_on_plane(line_p, q);
-    const double step = q.physical.z - p.physical.z;
+    const double depth_p = depth_of(line_p, p.physical), depth_q = depth_of(line_q, q.physical);
+    const double by_p = depth_on_plane(line_q, p) - depth_p, by_q = depth_q - depth_on_plane(line_p, q);
+    const double step = depth_q - depth_p;
     return std::abs(by_p) <= kSteepest_pitches * pitch && std::abs(by_q) <= kSteepest_pitches * pitch &&
            std::abs(by_p - by_q) <= kLargestBend_pitches * pitch &&
            step >= std::min(by_p, by_q) - kUnexplained_pitches * pitch &&
@@ -91,7 +100,7 @@ class Neighbours {
     if (p.hit.triangle == q.hit.triangle) return is_solid(p, q);
     const auto line_p = pixel_line(view_.display, view_.module, p.pixel);
     const auto line_q = pixel_line(view_.display, view_.module, q.pixel);
-    const double pitch = length(at_depth(*line_q, p.hit.physical.z) - p.hit.physical);
+    const double pitch = length(at_depth(*line_q, depth_of(*line_p, p.hit.physical)) - p.hit.physical);
     return planes_explain(*line_p, p.hit, *line_q, q.hit, pitch) || closes(p, q, pitch);
   }
 

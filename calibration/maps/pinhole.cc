@@ -143,8 +143,8 @@ double distortion_limit(const PinholeMap& m) {
   return std::sqrt(low);
 }
 
-std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s) {
-  const glm::dvec3 q = module_from_physical_rotation(map) * (glm::dvec3(s.x, s.y, 0) - to_glm(map.position));
+std::optional<PixelPoint> image_from_point(const PinholeMap& map, Point3<Physical> point) {
+  const glm::dvec3 q = module_from_physical_rotation(map) * to_glm(point - map.position);
   if (!(q.z > 0)) return std::nullopt;
   const glm::dvec2 a = glm::dvec2(q) / q.z;
   if (!grows_up_to(map, glm::dot(a, a)) || !(glm::determinant(distort_jacobian(map, a)) > 0)) return std::nullopt;
@@ -155,14 +155,23 @@ std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s
   return p;
 }
 
-std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p) {
+std::optional<Vector3<Physical>> direction_of_pixel(const PinholeMap& map, PixelPoint p) {
   const auto a =
       undistort(map, {(p.x - map.principal_u_px) / map.focal_u_px, (p.y - map.principal_v_px) / map.focal_v_px});
   if (!a) return std::nullopt;
-  const glm::dvec3 direction = glm::transpose(module_from_physical_rotation(map)) * glm::dvec3(*a, 1);
-  const double distance = -map.position.z / direction.z;  // to the plane z = 0
+  return vector_of<Physical>(glm::transpose(module_from_physical_rotation(map)) * glm::dvec3(*a, 1));
+}
+
+std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s) {
+  return image_from_point(map, {s.x, s.y, 0});
+}
+
+std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p) {
+  const auto direction = direction_of_pixel(map, p);
+  if (!direction) return std::nullopt;
+  const double distance = -map.position.z / direction->z;  // to the plane z = 0
   if (!(distance > 0)) return std::nullopt;
-  const ScreenPoint s{map.position.x + distance * direction.x, map.position.y + distance * direction.y};
+  const ScreenPoint s{map.position.x + distance * direction->x, map.position.y + distance * direction->y};
   if (!is_finite(s)) return std::nullopt;
   return s;
 }

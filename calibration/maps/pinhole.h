@@ -41,11 +41,17 @@ glm::dmat3 module_from_physical_rotation(const PinholeMap& map);
 // The distortion alone: a' of a, in normalised coordinates.
 glm::dvec2 distort(const PinholeMap& map, glm::dvec2 a);
 
-// Absent behind the projector and where the distortion has turned back (beyond its limit, or its Jacobian mirrors).
+// Pixel of a physical point. Absent behind the projector and where the distortion has turned back (beyond its limit, or
+// its Jacobian mirrors).
+std::optional<PixelPoint> image_from_point(const PinholeMap& map, Point3<Physical> p);
+
+// Direction, in physical space and not of unit length, in which the pinhole sees a pixel, by safeguarded Newton, to
+// rounding where it can, to 1e-12 relative at worst; absent where nothing within the distortion's limit lands on `p`.
+std::optional<Vector3<Physical>> direction_of_pixel(const PinholeMap& map, PixelPoint p);
+
+// The same on a planar screen.
 std::optional<PixelPoint> image_from_screen(const PinholeMap& map, ScreenPoint s);
 
-// By safeguarded Newton, to rounding where it can, to 1e-12 relative at worst; absent where no screen point within the
-// distortion's limit lands on `p`.
 std::optional<ScreenPoint> screen_from_image(const PinholeMap& map, PixelPoint p);
 
 }  // namespace lfd

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "calibration/display.h"
+#include "rendernode/geometry/warp_table.h"
 
 namespace lfd {
 
@@ -18,19 +19,23 @@ using ClipPoint = glm::dvec3;
 // image, and beyond the radius where a distortion turns back: a triangle's corner needs a place there too.
 class ClipMap {
  public:
-  ClipMap(const DisplayCalibration& display, const ModuleCalibration& module);
+  // `table` is that of a module with a GridMap, else null; all outlive the map.
+  ClipMap(const DisplayCalibration& display, const ModuleCalibration& module, const WarpTable* table);
 
   // Absent where there is no place: w <= 0, or behind a homography's horizon or a pinhole.
   std::optional<ClipPoint> clip_from_physical(Point3<Physical> p) const;
 
-  // The screen point alone, and w in z.
-  glm::dvec3 screen_from_physical(Point3<Physical> p) const;
+  // The screen point alone, also beside the screen. On a planar screen it always exists, and w says whether it counts.
+  std::optional<OnScreen> screen_from_physical(Point3<Physical> p) const;
+
+  bool is_curved() const { return display_->optics.screen_radius_m != 0; }
 
  private:
-  std::optional<glm::dvec2> image_from_screen(glm::dvec2 s) const;
+  std::optional<glm::dvec2> image_from_screen(ScreenPoint s) const;
 
   const DisplayCalibration* display_;
   const ModuleCalibration* module_;
+  const WarpTable* table_;
   glm::dmat3 homography_{1.0};  // ideal and homography maps
   glm::dmat3 rotation_{1.0};    // pinholes: module_from_physical
   double limit_ = 0;            // pinholes: largest radius that can be inverted

@@ -34,6 +34,7 @@ DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings
   });
   if (!std::isfinite(singular)) singular = -vz;  // no module lights any of these places: nothing will be drawn
   DepthLimits limits;
+  limits.in_z = display.optics.screen_radius_m == 0;
   limits.front = std::min(settings.near_z_m.value_or(0.9 * vz), 0.999 * vz);
   limits.back = std::max(settings.far_z_m.value_or(0.95 * singular), 0.999 * singular);
   // Kept apart even where the deployment asks for limits outside of what can be shown.

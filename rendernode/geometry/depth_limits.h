@@ -10,6 +10,7 @@ namespace lfd {
 // `back` is cut away; every module has images in between.
 struct DepthLimits {
   double front = 0, back = 0;
+  bool in_z = true;        // depth is z: geometry can be cut in space. On a curved screen pixels are left out instead
   double depth_scale = 1;  // clip.z = depth_scale (front - depth); at most w everywhere between the limits
 };
 

@@ -15,12 +15,13 @@ namespace {
 constexpr int kSlices = 64;
 constexpr double kAlongFactor = 20;
 constexpr double kBendMargin = 2;      // the bend is sampled, not proven
+constexpr double kUnseenEdge = 0.25;   // of the screen's width: shorter edges without any place are not looked into
 constexpr double kScreenMargin = 1.1;  // edges this far beside the screen cannot be seen
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Both ends beside the same border of the screen: nothing of the edge is seen, straight or not.
-bool beside(ScreenSize screen, glm::dvec3 a, glm::dvec3 b) {
+bool beside(ScreenSize screen, ScreenPoint a, ScreenPoint b) {
   const double x = kScreenMargin * 0.5 * screen.width_m, y = kScreenMargin * 0.5 * screen.height_m;
   return (a.x > x && b.x > x) || (a.x < -x && b.x < -x) || (a.y > y && b.y > y) || (a.y < -y && b.y < -y);
 }
@@ -28,18 +29,24 @@ bool beside(ScreenSize screen, glm::dvec3 a, glm::dvec3 b) {
 }  // namespace
 
 EdgeRule::EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules,
-                   const DepthLimits& limits, double tolerance_px)
+                   const WarpTables& tables, const DepthLimits& limits, double tolerance_px)
     : display_(&display), limits_(limits), tolerance_px_(tolerance_px) {
-  for (const auto k : modules) {
-    maps_.emplace_back(display, display.modules[k]);
-    emitters_.push_back(display.modules[k].emitter);
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    const auto& table = tables.of_module[i];
+    const ModuleCalibration& module = display.modules[modules[i]];
+    maps_.emplace_back(display, module, table ? &*table : nullptr);
+    emitters_.push_back(module.emitter);
   }
   measure_bend();
 }
 
 double EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
   const auto clip_a = map.clip_from_physical(a), clip_b = map.clip_from_physical(b);
-  if (!clip_a && !clip_b) return 0;
+  if (!clip_a && !clip_b) {
+    // On a curved screen the middle of an edge may be seen between two ends that have no ray.
+    const bool may_be_seen_between = map.is_curved() && length(b - a) > kUnseenEdge * display_->screen.width_m;
+    return may_be_seen_between ? kInfinity : 0;
+  }
   if (!clip_a || !clip_b) return kInfinity;
   const glm::dvec2 edge = glm::dvec2(*clip_b) / clip_b->z - glm::dvec2(*clip_a) / clip_a->z;
   const double edge_px = glm::length(edge);
@@ -57,10 +64,15 @@ double EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Phy
   return worst / tolerance_px_;
 }
 
+bool EdgeRule::is_beside(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
+  const auto at_a = map.screen_from_physical(a), at_b = map.screen_from_physical(b);
+  return at_a && at_b && beside(display_->screen, at_a->at, at_b->at);
+}
+
 double EdgeRule::deviation(Point3<Physical> a, Point3<Physical> b) const {
   double worst = 0;
   for (const auto& map : maps_) {
-    if (beside(display_->screen, map.screen_from_physical(a), map.screen_from_physical(b))) continue;
+    if (is_beside(map, a, b)) continue;
     worst = std::max(worst, deviation_in(map, a, b));
   }
   return worst;
@@ -81,7 +93,7 @@ bool EdgeRule::must_split(Point3<Physical> a, Point3<Physical> b) const {
   const Vector3<Physical> d = b - a;
   if (bend_between(a.z, b.z) * dot(d, d) <= 1) return false;
   for (const auto& map : maps_) {
-    if (beside(display_->screen, map.screen_from_physical(a), map.screen_from_physical(b))) continue;
+    if (is_beside(map, a, b)) continue;
     if (deviation_in(map, a, b) > 1) return true;
   }
   return false;

@@ -16,8 +16,9 @@ class EdgeRule {
  public:
   // tolerance_px: how far the drawn edge may lie beside the true one; along the edge (which moves textures and depth,
   // not outlines) twenty times as much is allowed. modules: those the geometry is drawn for.
-  EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const DepthLimits& limits,
-           double tolerance_px);
+  // tables: those of the modules, which outlive the rule.
+  EdgeRule(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, const WarpTables& tables,
+           const DepthLimits& limits, double tolerance_px);
 
   // Symmetric in its arguments.
   bool must_split(Point3<Physical> a, Point3<Physical> b) const;
@@ -26,6 +27,7 @@ class EdgeRule {
   double deviation(Point3<Physical> a, Point3<Physical> b) const;
 
  private:
+  bool is_beside(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
   double deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
   double bend_between(double z0, double z1) const;
   void measure_bend();

@@ -75,7 +75,7 @@ void TriangleFeed::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return;
   }
   const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
-  if (low < limits_.back || high > limits_.front) {
+  if (limits_.in_z && (low < limits_.back || high > limits_.front)) {
     ++out_.cut_triangles;
     if (high > limits_.back && low < limits_.front) add_cut({corners_[a], corners_[b], corners_[c]}, *plane);
     return;

@@ -46,7 +46,7 @@ shared::FrameParams frame_params(const FrameInputs& in, int lights) {
   params.world_from_physical_0 = row_of(to_world, 0, back.x);
   params.world_from_physical_1 = row_of(to_world, 1, back.y);
   params.world_from_physical_2 = row_of(to_world, 2, back.z);
-  params.depth = {in.limits.front, in.limits.depth_scale, 0, 0};
+  params.depth = {in.limits.front, in.limits.depth_scale, in.limits.back, 0};
   params.background = glm::vec4(in.settings.background, lights);
   const AoSettings& ao = in.settings.ao;
   const float mode = !ao.enabled ? 0.0F : ao.target == AoTarget::kWholeColor ? 2.0F : 1.0F;
@@ -94,6 +94,7 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   glVertexArrayElementBuffer(surface_array_.name(), in.geometry.indices.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.commands.name());
   if (in.modules.has_tables()) bind_texture(UNIT_PIXEL_TABLE, in.modules.pixel_tables.name());
+  if (in.modules.warp_tables) bind_texture(UNIT_WARP_TABLE, in.modules.warp_tables.name());
 }
 
 Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
@@ -105,7 +106,7 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
   if (plan.z_prepass) LFD_TRY_STATUS(z_prepass(plan, commands, inputs, targets, timers));
   LFD_TRY_STATUS(gbuffer(plan, commands, inputs, targets, timers));
   glDisable(GL_DEPTH_TEST);
-  if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(commands, targets, timers));
+  if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(commands, inputs, targets, timers));
   if (plan.blur) LFD_TRY_STATUS(blur(commands, inputs.settings.ao.blur_sigma_px, targets, timers));
   if (plan.post) LFD_TRY_STATUS(post(plan, commands, inputs, targets, timers));
   return {};
@@ -114,6 +115,7 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
 Status FramePasses::draw_surfaces(const char* fragment, gl::Flags flags, const Batch& batch, const FrameInputs& in) {
   glBindVertexArray(surface_array_.name());
   if (in.modules.has_tables()) flags.emplace_back("PIXEL_TABLE");
+  if (in.modules.warp_tables) flags.emplace_back("WARP_TABLE");
   for (const auto& submission : batch.submissions) {
     gl::Flags variant = flags;
     if (submission.alpha_mask) variant.emplace_back("ALPHA_MASK");
@@ -191,8 +193,11 @@ void FramePasses::draw_layers(const CommandList& commands, const char* pass, Pas
   }
 }
 
-Status FramePasses::ambient_occlusion(const CommandList& commands, const Targets& targets, PassTimers& timers) {
-  LFD_TRY(const GLuint name, program("passes/layers.vert", "passes/ao_sphere.frag", {}));
+Status FramePasses::ambient_occlusion(const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
+                                      PassTimers& timers) {
+  gl::Flags flags;
+  if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
+  LFD_TRY(const GLuint name, program("passes/layers.vert", "passes/ao_sphere.frag", flags));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
   bind_texture(UNIT_POSITION, targets.position());

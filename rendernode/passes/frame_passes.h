@@ -44,7 +44,8 @@ class FramePasses {
                    PassTimers& timers);
   Status gbuffer(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
                  PassTimers& timers);
-  Status ambient_occlusion(const CommandList& commands, const Targets& targets, PassTimers& timers);
+  Status ambient_occlusion(const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
+                           PassTimers& timers);
   Status blur(const CommandList& commands, double sigma_px, const Targets& targets, PassTimers& timers);
   Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
               PassTimers& timers);

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 #include <thread>
 
+#include "calibration/curved_screen.h"
 #include "rendernode/geometry/clip_map.h"
 
 namespace lfd {
@@ -36,6 +37,22 @@ void fill_pinhole(shared::ModuleParams& params, const PinholeMap& map) {
   params.tangential = {map.p1, map.p2, 0, 0};
 }
 
+void fill_table(shared::ModuleParams& params, const WarpTable& table, int layer) {
+  fill_homography(params, table.image_from_screen);
+  params.pinhole_0 = {table.low.x, table.low.y, 1 / table.cell.x, 1 / table.cell.y};
+  params.pinhole_1 = {table.columns, table.rows, layer, 0};
+}
+
+// One layer of an array texture of two floats a texel.
+void upload_layer(const gl::Texture& texture, std::size_t layer, int width, int height, const void* texels) {
+  glTextureSubImage3D(texture.name(), 0, 0, 0, static_cast<GLint>(layer), width, height, 1, GL_RG, GL_FLOAT, texels);
+}
+
+// Whether pixels get their screen point from a table: where the inverse has no closed form.
+bool needs_pixel_table(const ModuleCalibration& module) {
+  return std::holds_alternative<PinholeMap>(module.map) || std::holds_alternative<GridMap>(module.map);
+}
+
 void fill_rows(const DisplayCalibration& display, const ModuleCalibration& module, int first, int last, float* out) {
   constexpr float kNowhere = 1e30F;
   for (int row = first; row < last; ++row) {
@@ -51,15 +68,23 @@ void fill_rows(const DisplayCalibration& display, const ModuleCalibration& modul
 }  // namespace
 
 shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module,
-                                   int table_layer) {
+                                   const WarpTable* warp, TableLayers layers) {
   shared::ModuleParams params{};
+  const Optics& optics = display.optics;
   const auto* pinhole = std::get_if<PinholeMap>(&module.map);
-  params.emitter = {module.emitter.x, module.emitter.y, module.emitter.z, pinhole != nullptr ? 1 : 0};
-  params.observer = {display.optics.observer_height_m, display.optics.observer_distance_m,
-                     display.optics.diffuser == Diffuser::kConical ? 1 : 0, table_layer};
+  const int kind = pinhole != nullptr ? 1 : warp != nullptr ? 2 : 0;
+  params.emitter = {module.emitter.x, module.emitter.y, module.emitter.z, kind};
+  params.observer = {optics.observer_height_m, optics.observer_distance_m,
+                     optics.diffuser == Diffuser::kConical ? 1 : 0, layers.pixels};
   params.screen = {display.screen.width_m, display.screen.height_m, display.image.width, display.image.height};
+  if (optics.screen_radius_m != 0) {
+    const double level = CurvedScreen(optics.screen_radius_m).level({0, optics.observer_distance_m});
+    params.surface = {1 / optics.screen_radius_m, optics.observer_arc ? level : 0, 0, 0};
+  }
   if (pinhole != nullptr) {
     fill_pinhole(params, *pinhole);
+  } else if (warp != nullptr) {
+    fill_table(params, *warp, layers.warp);
   } else if (const auto* homography = std::get_if<HomographyMap>(&module.map)) {
     fill_homography(params, homography->image_from_screen);
   } else {
@@ -80,23 +105,40 @@ std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCa
   return table;
 }
 
-GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules) {
+GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules,
+                          const WarpTables& tables) {
   std::vector<shared::ModuleParams> params;
-  std::vector<std::uint32_t> tabulated;
-  for (const auto k : modules) {
-    const bool table = std::holds_alternative<PinholeMap>(display.modules[k].map);
-    params.push_back(module_params(display, display.modules[k], table ? static_cast<int>(tabulated.size()) : -1));
-    params.back().tangential.z = static_cast<float>(k);  // noise is the module's own, whichever node draws it
-    if (table) tabulated.push_back(k);
+  std::vector<std::uint32_t> with_pixels;
+  std::vector<const WarpTable*> warps;
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    const ModuleCalibration& module = display.modules[modules[i]];
+    const WarpTable* warp = tables.of_module[i] ? &*tables.of_module[i] : nullptr;
+    TableLayers layers;
+    if (needs_pixel_table(module)) {
+      layers.pixels = static_cast<int>(with_pixels.size());
+      with_pixels.push_back(modules[i]);
+    }
+    if (warp != nullptr) {
+      layers.warp = static_cast<int>(warps.size());
+      warps.push_back(warp);
+    }
+    params.push_back(module_params(display, module, warp, layers));
+    params.back().tangential.z = static_cast<float>(modules[i]);  // noise is the module's own, whichever node draws it
   }
   params.resize(MODULES_PER_NODE);
-  GpuModules gpu{gl::make_buffer(params), {}};
-  if (tabulated.empty()) return gpu;
-  gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(tabulated.size()));
-  for (std::size_t layer = 0; layer < tabulated.size(); ++layer) {
-    const auto table = pixel_table(display, display.modules[tabulated[layer]]);
-    glTextureSubImage3D(gpu.pixel_tables.name(), 0, 0, 0, static_cast<GLint>(layer), display.image.width,
-                        display.image.height, 1, GL_RG, GL_FLOAT, table.data());
+  GpuModules gpu{gl::make_buffer(params), {}, {}};
+  if (!with_pixels.empty()) {
+    gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(with_pixels.size()));
+  }
+  for (std::size_t layer = 0; layer < with_pixels.size(); ++layer) {
+    const auto table = pixel_table(display, display.modules[with_pixels[layer]]);
+    upload_layer(gpu.pixel_tables, layer, display.image.width, display.image.height, table.data());
+  }
+  if (warps.empty()) return gpu;
+  const ImageSize size{warps.front()->columns, warps.front()->rows};
+  gpu.warp_tables = gl::make_array_texture(GL_RG32F, size, static_cast<int>(warps.size()));
+  for (std::size_t layer = 0; layer < warps.size(); ++layer) {
+    upload_layer(gpu.warp_tables, layer, size.width, size.height, warps[layer]->residual_px.data());
   }
   return gpu;
 }

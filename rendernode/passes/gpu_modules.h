@@ -5,13 +5,20 @@
 #include <vector>
 
 #include "calibration/display.h"
+#include "rendernode/geometry/warp_table.h"
 #include "rendernode/gl/objects.h"
 #include "shaders/shared/glsl_types.h"
 
 namespace lfd {
 
-// One module's parameters; table_layer: its layer in the pixel table, or -1.
-shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module, int table_layer);
+// Layers of the tables that one module reads; -1: none.
+struct TableLayers {
+  int pixels = -1, warp = -1;
+};
+
+// One module's parameters. `warp` is the table of a module with a GridMap, else null.
+shared::ModuleParams module_params(const DisplayCalibration& display, const ModuleCalibration& module,
+                                   const WarpTable* warp, TableLayers layers);
 
 // Screen point (s, y) of every pixel centre, in metres, row by row from the top; far off the screen where there is
 // none. Solved in double precision; the rows are shared among the machine's cores.
@@ -19,10 +26,12 @@ std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCa
 
 struct GpuModules {
   gl::Buffer params;         // array of MODULES_PER_NODE ModuleParams, one per layer
-  gl::Texture pixel_tables;  // RG32F array; empty where no module needs one
+  gl::Texture pixel_tables;  // RG32F array: screen points of pixels; empty where no module needs one
+  gl::Texture warp_tables;   // RG32F array: residuals of WarpTable; likewise
   bool has_tables() const { return static_cast<bool>(pixel_tables); }
 };
 
-GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules);
+GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules,
+                          const WarpTables& tables);
 
 }  // namespace lfd

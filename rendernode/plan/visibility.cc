@@ -35,6 +35,7 @@ Range convergence_range(const Optics& optics, const Emitter& emitter, Range sy) 
 
 bool may_be_seen(const DisplayCalibration& display, const ModuleCalibration& module, Point3<Physical> low,
                  Point3<Physical> high) {
+  if (display.optics.screen_radius_m != 0) return true;  // no bounds are known for curved screens
   const double vz = display.optics.observer_distance_m, vy = display.optics.observer_height_m;
   if (!(high.z < vz)) return true;
   // sy is linear in y at a given z, and monotone in z at a given y: its extremes are at the corners.

@@ -1,5 +1,5 @@
 // Pass 3, ambient occlusion by samples in a spherical shell (Doronin et al., WSCG 2017, Algorithm 2), in the light-field form:
-// a sample counts as hidden if the surface stored where its image is lies in front of it (larger physical z).
+// a sample counts as hidden if the surface stored where its image is lies in front of it (larger depth).
 #version 450 core
 #include "shared/bindings.glsl"
 #include "shared/module_params.glsl"
@@ -18,7 +18,7 @@ layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
 flat in int layer;
 layout(location = 0) out float out_hidden;  // share of hidden samples; -1 where there is no surface
 
-// physical - physical of the ROI centre, of a world vector counted from it
+// physical point of a world point counted from the ROI centre
 vec3 physical_from_world(vec3 p) {
   return vec3(dot(frame.physical_from_world_0, vec4(p, 1.0)), dot(frame.physical_from_world_1, vec4(p, 1.0)),
               dot(frame.physical_from_world_2, vec4(p, 1.0)));
@@ -43,7 +43,7 @@ bool is_hidden(ModuleParams m, vec3 s_in_world) {
   vec4 q = image_from_physical(m, physical_from_world(s_in_world));
   if (q.w == 0.0) return false;
   vec4 surface = surface_at(q.xy);
-  return surface.w != 0.0 && dot(frame.physical_from_world_2, vec4(surface.xyz, 1.0)) > q.z;
+  return surface.w != 0.0 && depth_of(m, physical_from_world(surface.xyz)) > q.z;
 }
 
 void main() {

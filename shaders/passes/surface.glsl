@@ -30,17 +30,24 @@ float keep_in_triangle(PrimitivePlane plane, vec3 start, vec3 direction, float t
   return first <= last ? clamp(t, first, last) : t;
 }
 
-// Physical point where the line of a pixel meets the triangle (w: 1 seen from the front, -1 from behind, 0 not at all).
-vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 pixel) {
+// Physical point where the line of a pixel meets the triangle (w: 1 seen from the front, -1 from behind, 0 not at all). Depths are
+// within the limits: on a planar screen triangles were cut there, on a curved one it is decided here.
+vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 limits, vec2 pixel) {
   vec2 s = screen_of_pixel(m, pixel);
   if (!on_screen(m, s)) return vec4(0.0);
-  vec3 direction = line_direction(m, s);
+  vec3 start = surface_point(m, s), direction = line_direction(m, s);
   float slope = dot(plane.normal_offset.xyz, direction);
-  float t = (plane.normal_offset.w - dot(plane.normal_offset.xyz, vec3(s, 0.0))) / slope;
-  vec2 range = plane.range.xy / m.observer.y;
-  t = clamp(slope == 0.0 ? range.y : t, range.x, range.y);
-  t = keep_in_triangle(plane, vec3(s, 0.0), direction, t);
-  return vec4(vec3(s, 0.0) + t * direction, slope >= 0.0 ? 1.0 : -1.0);
+  float t = (plane.normal_offset.w - dot(plane.normal_offset.xyz, start)) / slope;
+  if (is_curved(m)) {
+    if (slope == 0.0) return vec4(0.0);
+    t = keep_in_triangle(plane, start, direction, t);
+    if (!(t * m.observer.y >= limits.x && t * m.observer.y <= limits.y)) return vec4(0.0);
+  } else {
+    vec2 range = plane.range.xy / m.observer.y;
+    t = clamp(slope == 0.0 ? range.y : t, range.x, range.y);
+    t = keep_in_triangle(plane, start, direction, t);
+  }
+  return vec4(start + t * direction, slope >= 0.0 ? 1.0 : -1.0);
 }
 
 #ifdef TEXTURED

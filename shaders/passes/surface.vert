@@ -35,11 +35,11 @@ out vec2 uv;
 flat out float texture_layer;
 #endif
 
-// Depth is scale * (front - z) / w: it grows from 0 at the front limit, and along every pixel's line it orders as z does,
-// since w is the same function of z for all points of one line (design geometry, section 4).
+// What is written is scale * (front - depth) / w: it grows from 0 at the front limit, and along every pixel's line it orders as depth
+// does, since w is the same function of depth for all points of one line (design geometry, section 4).
 void main() {
   ModuleParams m = modules[record.x];
-  vec3 s = screen_from_physical(m, p_in_physical);
+  vec4 s = screen_from_physical(m, p_in_physical);
   vec3 pixel = image_from_screen(m, s.xy);
   gl_Layer = int(record.x);
   draw = record;
@@ -62,5 +62,5 @@ void main() {
     return;
   }
   gl_ClipDistance[0] = 1.0;
-  gl_Position = vec4((2.0 * pixel.xy / m.screen.zw - 1.0) * s.z, frame.depth.y * (frame.depth.x - p_in_physical.z), s.z);
+  gl_Position = vec4((2.0 * pixel.xy / m.screen.zw - 1.0) * s.z, frame.depth.y * (frame.depth.x - s.w), s.z);
 }

@@ -2,11 +2,14 @@
 #version 450 core
 #include "shared/bindings.glsl"
 #include "shared/module_params.glsl"
+#include "shared/frame_params.glsl"
 #include "shared/primitive_plane.glsl"
 #include "shared/draw_record.glsl"
 #include "lib/optics.glsl"
 #include "lib/image_map.glsl"
 #include "passes/surface.glsl"
+
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
 
 flat in uvec4 draw;
 #ifdef ATTRIBUTES
@@ -19,7 +22,7 @@ flat in float alpha_cutoff;
 void main() {
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
-  vec4 p = meet(m, plane, gl_FragCoord.xy);
+  vec4 p = meet(m, plane, frame.depth.zx, gl_FragCoord.xy);
   if (p.w == 0.0 || (p.w < 0.0 && (draw.w & DRAW_DOUBLE_SIDED) == 0u)) discard;
 #ifdef ALPHA_MASK
   if (mask_alpha() * color.a < alpha_cutoff) discard;

@@ -30,7 +30,7 @@ void main() {
   vec4 base = texel();
   ModuleParams m = modules[draw.x];
   PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
-  vec4 p = meet(m, plane, gl_FragCoord.xy);
+  vec4 p = meet(m, plane, frame.depth.zx, gl_FragCoord.xy);
   if (p.w == 0.0 || (p.w < 0.0 && (draw.w & DRAW_DOUBLE_SIDED) == 0u)) discard;
   base *= color;
 #ifdef ALPHA_MASK

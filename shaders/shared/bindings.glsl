@@ -17,3 +17,4 @@
 #define UNIT_POSITION 3
 #define UNIT_NORMAL 4
 #define UNIT_AO 5
+#define UNIT_WARP_TABLE 6

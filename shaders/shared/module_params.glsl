@@ -1,15 +1,17 @@
 // One optical module: its optics and its map. vec4 only, so that C++, std140 and std430 lay it out alike.
 struct ModuleParams {
-  vec4 emitter;            // ex, ey, ez in physical metres; w: map kind, 0 homography (ideal maps too), 1 pinhole
+  vec4 emitter;            // ex, ey, ez in physical metres; w: map kind, 0 homography (ideal maps too), 1 pinhole, 2 table
   vec4 observer;           // x: height vy, y: distance vz (m); z: diffuser, 0 linear, 1 conical; w: layer of the pixel table, or -1
   vec4 screen;             // width, height of the screen (m); zw: width, height of the image (px)
-  vec4 image_from_screen_0;  // rows of the homography screen (m) -> image (px); w unused
+  vec4 surface;            // x: curvature of the screen (1/m), 0: planar; y: level of the observers' arc, 0: a straight line; zw unused
+  vec4 image_from_screen_0;  // rows of the homography screen (m) -> image (px); of a table its base; w unused
   vec4 image_from_screen_1;
   vec4 image_from_screen_2;
   vec4 screen_from_image_0;  // rows of its inverse
   vec4 screen_from_image_1;
   vec4 screen_from_image_2;
-  vec4 pinhole_0;          // rows of module_from_physical (rotation; w: offset): q = row . (P, 1)
+  vec4 pinhole_0;          // rows of module_from_physical (rotation; w: offset): q = row . (P, 1). Table: first node (m), nodes per metre
+  // of a table: pinhole_1 has columns, rows, layer
   vec4 pinhole_1;
   vec4 pinhole_2;
   vec4 focal_principal;    // focal_u, focal_v, principal_u, principal_v (px)

@@ -55,11 +55,12 @@ std::vector<Struct> all_structs() {
        "ModuleParams",
        sizeof(shared::ModuleParams),
        {LFD_AT(ModuleParams, emitter), LFD_AT(ModuleParams, observer), LFD_AT(ModuleParams, screen),
-        LFD_AT(ModuleParams, image_from_screen_0), LFD_AT(ModuleParams, image_from_screen_1),
-        LFD_AT(ModuleParams, image_from_screen_2), LFD_AT(ModuleParams, screen_from_image_0),
-        LFD_AT(ModuleParams, screen_from_image_1), LFD_AT(ModuleParams, screen_from_image_2),
-        LFD_AT(ModuleParams, pinhole_0), LFD_AT(ModuleParams, pinhole_1), LFD_AT(ModuleParams, pinhole_2),
-        LFD_AT(ModuleParams, focal_principal), LFD_AT(ModuleParams, distortion), LFD_AT(ModuleParams, tangential)}},
+        LFD_AT(ModuleParams, surface), LFD_AT(ModuleParams, image_from_screen_0),
+        LFD_AT(ModuleParams, image_from_screen_1), LFD_AT(ModuleParams, image_from_screen_2),
+        LFD_AT(ModuleParams, screen_from_image_0), LFD_AT(ModuleParams, screen_from_image_1),
+        LFD_AT(ModuleParams, screen_from_image_2), LFD_AT(ModuleParams, pinhole_0), LFD_AT(ModuleParams, pinhole_1),
+        LFD_AT(ModuleParams, pinhole_2), LFD_AT(ModuleParams, focal_principal), LFD_AT(ModuleParams, distortion),
+        LFD_AT(ModuleParams, tangential)}},
       {"primitive_plane",
        "PrimitivePlane",
        sizeof(shared::PrimitivePlane),
@@ -174,7 +175,7 @@ TEST(SharedStructs, BindingsAreGivenOutOnce) {
       EXPECT_TRUE(given.insert((*found)[1].str() + " " + (*found)[2].str()).second) << found->str();
     }
   }
-  EXPECT_EQ(count, 14U);
+  EXPECT_EQ(count, 15U);
 }
 
 }  // namespace

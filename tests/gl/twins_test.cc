@@ -52,7 +52,7 @@ const std::string kMapHead =
     "layout(std430, binding = 2) readonly buffer Modules { ModuleParams modules[]; };";
 
 gl::Buffer module_buffer(const DisplayCalibration& display) {
-  const shared::ModuleParams params = module_params(display, display.modules[0], -1);
+  const shared::ModuleParams params = module_params(display, display.modules[0], nullptr, {});
   return gl::make_buffer(std::span(&params, 1));
 }
 

@@ -41,7 +41,7 @@ TEST(RendernodeClipMap, IsTheCalibratedMapWhereThatHasAnImage) {
       const auto image = image_from_physical(display, module, p);
       if (!image) continue;
       ++with_image;
-      const auto clip = ClipMap(display, module).clip_from_physical(p);
+      const auto clip = ClipMap(display, module, nullptr).clip_from_physical(p);
       ASSERT_TRUE(clip);
       // Both are double precision in other orders of operations: pixels are of the order 1e3, so 1e-9 is 1e4 roundings.
       EXPECT_NEAR(clip->x / clip->z, image->u, 1e-9);
@@ -56,7 +56,8 @@ TEST(RendernodeEdgeRule, EdgesThatStayWholeDeviateByAToleranceAtMost) {
   int whole = 0, split = 0;
   for_random_displays([&](const DisplayCalibration& display, Random& random) {
     const DepthLimits limits = depth_limits(display, {});
-    const EdgeRule rule(display, {0, 1, 2}, limits, 0.02);
+    const WarpTables tables = warp_tables(display, {0, 1, 2});
+    const EdgeRule rule(display, {0, 1, 2}, tables, limits, 0.02);
     for (int i = 0; i < 2000; ++i) {
       const auto a = random_point(random, display, limits.back, limits.front);
       const double reach = std::exp(uniform(random, std::log(1e-3), std::log(1.0)));
@@ -79,7 +80,8 @@ TEST(RendernodeEdgeRule, LeavesTheScreensPlaneWhole) {
   Random random(2);
   for (const auto diffuser : kDiffusers) {
     const auto display = random_display(diffuser, testing_support::MapKind::kIdeal, random);
-    const EdgeRule rule(display, {0, 1, 2}, depth_limits(display, {}), 0.02);
+    const WarpTables tables = warp_tables(display, {0, 1, 2});
+    const EdgeRule rule(display, {0, 1, 2}, tables, depth_limits(display, {}), 0.02);
     for (int i = 0; i < 200; ++i)
       EXPECT_FALSE(rule.must_split(random_point(random, display, 0, 0), random_point(random, display, 0, 0)));
   }

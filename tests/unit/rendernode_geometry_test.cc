@@ -57,7 +57,8 @@ void for_random_surfaces(Visit visit) {
       SceneMaker maker;
       maker.add_mesh(crumpled_torus(random), maker.add_material({}));
       const DepthLimits limits = depth_limits(display, {});
-      const EdgeRule rule(display, {0, 1, 2}, limits, 0.1);
+      const WarpTables tables = warp_tables(display, {0, 1, 2});
+      const EdgeRule rule(display, {0, 1, 2}, tables, limits, 0.1);
       MeshCache cache;
       const auto geometry =
           build_geometry(maker.data().scene, maker.data().assets, cache, reference::same_spaces(), limits, rule);

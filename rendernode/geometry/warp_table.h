@@ -1,0 +1,43 @@
+// A measured map from the screen to the image as the GPU can look it up: a homography and a table of what it misses.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "calibration/display.h"
+
+namespace lfd {
+
+// How far, in pixels, a table may be from the map that it stands for.
+inline constexpr double kTableTolerance_px = 0.005;
+
+// image(s) = base s + residual(s), the residual bilinear between nodes over the screen and a margin around it, and that
+// of the border beyond. Near holes, folds and the border of what was measured, nodes are continued in straight lines:
+// corners of triangles need a place there too.
+struct WarpTable {
+  glm::dmat3 image_from_screen{1.0};  // the base, column-major
+  glm::dvec2 low{0.0}, cell{1.0};     // metres: the first node, and from node to node
+  int columns = 0, rows = 0;
+  std::vector<glm::vec2> residual_px;  // row by row upward, as s and y grow
+  // Largest distance from the map, in pixels: measured in the middles of cells and of their sides, wherever the map
+  // and the cell's corners have a pixel.
+  double error_px = 0;
+
+  // Absent behind the base's horizon.
+  std::optional<glm::dvec2> at(glm::dvec2 s) const;
+};
+
+// The table with 2^level + 1 columns for a module with a GridMap; rows in proportion to the screen. Levels 4 to 9.
+WarpTable warp_table(const DisplayCalibration& display, const ModuleCalibration& module, int level);
+
+// The coarsest level at which every module that has a GridMap is within the tolerance; the finest, where none is (then
+// the tables' errors say so). 4 where no module has one.
+struct WarpTables {
+  int level = 4;
+  std::vector<std::optional<WarpTable>> of_module;  // in the order of `modules`; absent for other maps
+};
+WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules);
+
+}  // namespace lfd
