@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "bench/frame/frame_bench.h"
 #include "bench/frame/print.h"
+#include "bench/map/map_bench.h"
 #include "cli/lfd_commands.h"
 
 namespace lfd {
@@ -50,6 +51,43 @@ int bench_frame(Arguments& a) {
   return written ? kExitDone : fail(written.error());
 }
 
+struct MapArguments {
+  bench::MapBenchOptions options;
+  std::string scene, display;  // files instead of the deployment's; may be empty
+  std::filesystem::path out;
+};
+
+int bench_map(MapArguments& a) {
+  if (!a.scene.empty()) a.options.overrides.scene = a.scene;
+  if (!a.display.empty()) a.options.overrides.display = a.display;
+  const auto table = bench::map_bench(a.options);
+  if (!table) return fail(table.error());
+  std::cout << bench::text_of(*table);
+  const auto write = [&](const char* name, const std::string& text) { return write_file(a.out / name, text); };
+  for (const Status& written : {write("map.txt", bench::text_of(*table)), write("map.csv", bench::csv_of(*table)),
+                                write("map.json", bench::json_of(*table)), write("map.svg", bench::svg_of(*table))}) {
+    if (!written) return fail(written.error());
+  }
+  return kExitDone;
+}
+
+void add_map_command(CLI::App& bench, int& exit_code) {
+  auto arguments = std::make_shared<MapArguments>();
+  MapArguments& a = *arguments;
+  CLI::App* map = add_command(bench, "map", "Position error against run time, for every way of drawing", exit_code,
+                              [arguments] { return bench_map(*arguments); });
+  map->add_option("DEPLOYMENT", a.options.deployment, "Deployment file (*.textproto)")->required();
+  map->add_option("--out", a.out, "Folder for map.txt, map.csv, map.json and map.svg")->required();
+  map->add_option("--frames", a.options.frames, "How many frames of each way, in turn")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  map->add_option("--module", a.options.modules, "Numbers of modules (default: the middle one and the first)")
+      ->delimiter(',');
+  map->add_option("--scene", a.scene, "Show this glTF file instead of the deployment's scene");
+  map->add_option("--display", a.display, "Use this calibration file instead of the deployment's");
+  map->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
@@ -57,6 +95,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   Arguments& a = *arguments;
   CLI::App* bench = app.add_subcommand("bench", "Measure run time and error");
   bench->require_subcommand(1);
+  add_map_command(*bench, exit_code);
   CLI::App* frame = add_command(*bench, "frame", "Time one module's frames without and with ambient occlusion",
                                 exit_code, [arguments] { return bench_frame(*arguments); });
   frame->add_option("DEPLOYMENT", a.options.deployment, "Deployment file (*.textproto)")->required();

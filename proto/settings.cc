@@ -72,6 +72,12 @@ Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
   LFD_TRY_STATUS(check_range("planner", m.planner(), 0, 1));
   settings.plan = m.planner() == proto::RenderSettings::PLAN;
   if (m.subdivision_px() != 0) settings.subdivision_px = m.subdivision_px();
+  LFD_TRY_STATUS(check_range("position", m.position(), 0, 1));
+  settings.interpolated_position = m.position() == proto::RenderSettings::INTERPOLATED;
+  if (m.tessellation_px() != 0) LFD_TRY_STATUS(check_range("tessellation_px", m.tessellation_px(), 0.01, 1e4));
+  settings.tessellation_px = m.tessellation_px();
+  if (m.warp_level() != 0) LFD_TRY_STATUS(check_range("warp_level", m.warp_level(), 4, 9));
+  settings.warp_level = m.warp_level();
   LFD_TRY_STATUS(check_range("subdivision_px", settings.subdivision_px, 0.01, 1e4));
   if (m.has_near_z_m()) settings.near_z_m = m.near_z_m();
   if (m.has_far_z_m()) settings.far_z_m = m.far_z_m();

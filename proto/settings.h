@@ -43,6 +43,9 @@ struct RenderSettings {
   double subdivision_px = 0.02;
   std::optional<double> near_z_m, far_z_m;
   bool unlit = false;
+  bool interpolated_position = false;
+  double tessellation_px = 0;  // 0: none
+  int warp_level = 0;          // 0: chosen from the error
   bool operator==(const RenderSettings&) const = default;
 };
 

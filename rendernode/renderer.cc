@@ -14,8 +14,6 @@ Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::
     : display_(std::move(display)),
       modules_(std::move(modules)),
       description_(context.description()),
-      tables_(warp_tables(display_, modules_)),
-      gpu_modules_(upload_modules(display_, modules_, tables_)),
       targets_(display_.image, static_cast<int>(modules_.size())) {
   LFD_CHECK(modules_.size() <= MODULES_PER_NODE, "more modules than a node can have");
 }
@@ -37,17 +35,25 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   LFD_TRY(const RegionOfInterest roi, read_roi(state.roi()));
   const bool first = !state_.has_value();
-  const bool new_rule = first || settings.subdivision_px != settings_.subdivision_px ||
+  const bool new_tables = first || settings.warp_level != settings_.warp_level;
+  const bool new_rule = new_tables || settings.subdivision_px != settings_.subdivision_px ||
                         settings.near_z_m != settings_.near_z_m || settings.far_z_m != settings_.far_z_m;
   const bool new_geometry = new_rule || !(roi == roi_) || !same_instances(state.scene(), state_->scene());
   const bool new_materials =
       first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
 
+  std::unique_ptr<const WarpTables> tables;
+  GpuModules gpu_modules;
+  if (new_tables) {
+    tables = std::make_unique<const WarpTables>(warp_tables(display_, modules_, settings.warp_level));
+    gpu_modules = upload_modules(display_, modules_, *tables);
+    LFD_TRY_STATUS(gl::memory_status("the tables of the modules' maps"));
+  }
   DepthLimits limits = limits_;
   std::unique_ptr<EdgeRule> rule;
   if (new_rule) {
     limits = depth_limits(display_, settings);
-    rule = std::make_unique<EdgeRule>(display_, modules_, tables_, limits, settings.subdivision_px);
+    rule = std::make_unique<EdgeRule>(display_, modules_, tables ? *tables : *tables_, limits, settings.subdivision_px);
   }
   std::optional<PhysicalGeometry> geometry;
   if (new_geometry) {
@@ -68,6 +74,10 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
                                 [&](const auto& instance) { return instance.mesh() == mesh.first; });
   });
   if (rule) rule_ = std::move(rule);
+  if (tables) {
+    tables_ = std::move(tables);
+    gpu_modules_ = std::move(gpu_modules);
+  }
   limits_ = limits;
   if (geometry) {
     geometry_ = std::move(*geometry);

@@ -90,7 +90,7 @@ class Renderer {
   DisplayCalibration display_;
   std::vector<std::uint32_t> modules_;
   std::string description_;
-  WarpTables tables_;
+  std::unique_ptr<const WarpTables> tables_;  // on the heap: rule_ refers to it
   GpuModules gpu_modules_;
   FramePasses passes_;
   Targets targets_;

@@ -57,6 +57,7 @@ Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silh
   if (!errors.empty()) {
     truth.median = nearest_rank(errors, 0.5);
     truth.percent_99 = nearest_rank(errors, 0.99);
+    truth.percent_999 = nearest_rank(errors, 0.999);
   }
   const std::size_t in_one = truth.only_in_reference + truth.only_in_rendered, in_any = in_one + truth.in_both;
   if (in_any > 0) truth.mismatch_share = static_cast<double>(in_one) / static_cast<double>(in_any);

@@ -19,8 +19,8 @@ struct Truth {
   std::size_t compared = 0;           // of those: the others
   std::size_t only_in_reference = 0;  // pixels with a surface in only one, wherever they lie
   std::size_t only_in_rendered = 0;
-  double median = 0, percent_99 = 0, max = 0;
-  PixelIndex worst;           // where max was found
+  double median = 0, percent_99 = 0, percent_999 = 0, max = 0;  // 999: the 99.9 % percentile
+  PixelIndex worst;                                             // where max was found
   double mismatch_share = 0;  // pixels with a surface in only one, over those with one in any; 0 where none has
 };
 

@@ -188,9 +188,9 @@ WarpTable warp_table(const DisplayCalibration& display, const ModuleCalibration&
   return table;
 }
 
-WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules) {
+WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, int level) {
   WarpTables tables;
-  for (tables.level = kCoarsest;; ++tables.level) {
+  for (tables.level = level != 0 ? level : kCoarsest;; ++tables.level) {
     tables.of_module.clear();
     bool are_true = true;
     for (const std::uint32_t k : modules) {
@@ -201,9 +201,9 @@ WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std:
       }
       tables.of_module.emplace_back(warp_table(display, module, tables.level));
       are_true = are_true && tables.of_module.back()->error_px <= kTableTolerance_px;
-      if (!are_true && tables.level < kFinest) break;  // a finer one is needed anyway
+      if (level == 0 && !are_true && tables.level < kFinest) break;  // a finer one is needed anyway
     }
-    if (are_true || tables.level == kFinest) return tables;
+    if (level != 0 || are_true || tables.level == kFinest) return tables;
   }
 }
 

@@ -38,6 +38,7 @@ struct WarpTables {
   int level = 4;
   std::vector<std::optional<WarpTable>> of_module;  // in the order of `modules`; absent for other maps
 };
-WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules);
+// level: taken instead, where not 0.
+WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules, int level = 0);
 
 }  // namespace lfd

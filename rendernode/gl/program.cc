@@ -49,6 +49,8 @@ Result<std::string> resolved(std::string_view source, const Flags& flags) {
 
 GLenum stage_of(std::string_view name) {
   if (name.ends_with(".vert")) return GL_VERTEX_SHADER;
+  if (name.ends_with(".tesc")) return GL_TESS_CONTROL_SHADER;
+  if (name.ends_with(".tese")) return GL_TESS_EVALUATION_SHADER;
   return name.ends_with(".frag") ? GL_FRAGMENT_SHADER : GL_COMPUTE_SHADER;
 }
 
@@ -89,10 +91,10 @@ Result<std::string> shader_text(std::string_view name, const Flags& flags) {
   return resolved(source, flags);
 }
 
-Result<Program> make_program(std::initializer_list<std::string_view> stages, const Flags& flags) {
+Result<Program> make_program(const std::vector<std::string>& stages, const Flags& flags) {
   std::vector<Shader> shaders;
   std::string name;
-  for (const auto stage : stages) {
+  for (const std::string& stage : stages) {
     LFD_TRY(const std::string text, shader_text(stage, flags));
     LFD_TRY(Shader shader, compile(stage_of(stage), stage, text));
     shaders.push_back(std::move(shader));

@@ -1,7 +1,6 @@
 // Shader programs from the embedded sources: includes resolved, flags as #define lines.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +17,9 @@ using Flags = std::vector<std::string>;
 // #version.
 Result<std::string> shader_text(std::string_view name, const Flags& flags);
 
-// Compiles and links. stages: embedded names ending in .vert, .frag or .comp. Errors carry the driver's log.
-Result<Program> make_program(std::initializer_list<std::string_view> stages, const Flags& flags = {});
+// Compiles and links. stages: embedded names ending in .vert, .tesc, .tese, .frag or .comp. Errors carry the driver's
+// log.
+Result<Program> make_program(const std::vector<std::string>& stages, const Flags& flags = {});
 
 // Compiles one compute shader given as text that may include embedded files (tests).
 Result<Program> make_compute_program(std::string_view text);

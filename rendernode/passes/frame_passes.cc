@@ -46,7 +46,7 @@ shared::FrameParams frame_params(const FrameInputs& in, int lights) {
   params.world_from_physical_0 = row_of(to_world, 0, back.x);
   params.world_from_physical_1 = row_of(to_world, 1, back.y);
   params.world_from_physical_2 = row_of(to_world, 2, back.z);
-  params.depth = {in.limits.front, in.limits.depth_scale, in.limits.back, 0};
+  params.depth = {in.limits.front, in.limits.depth_scale, in.limits.back, in.settings.tessellation_px};
   params.background = glm::vec4(in.settings.background, lights);
   const AoSettings& ao = in.settings.ao;
   const float mode = !ao.enabled ? 0.0F : ao.target == AoTarget::kWholeColor ? 2.0F : 1.0F;
@@ -61,11 +61,12 @@ FramePasses::FramePasses() : surface_array_(make_surface_array()), empty_array_(
   glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
-Result<GLuint> FramePasses::program(const std::string& vertex, const std::string& fragment, const gl::Flags& flags) {
-  std::string key = vertex + "+" + fragment;
+Result<GLuint> FramePasses::program(const std::vector<std::string>& stages, const gl::Flags& flags) {
+  std::string key;
+  for (const auto& stage : stages) key += stage + " ";
   for (const auto& flag : flags) key += " " + flag;
   if (const auto known = programs_.find(key); known != programs_.end()) return known->second.name();
-  LFD_TRY(gl::Program made, gl::make_program({vertex, fragment}, flags));
+  LFD_TRY(gl::Program made, gl::make_program(stages, flags));
   return programs_.emplace(key, std::move(made)).first->second.name();
 }
 
@@ -116,6 +117,13 @@ Status FramePasses::draw_surfaces(const char* fragment, gl::Flags flags, const B
   glBindVertexArray(surface_array_.name());
   if (in.modules.has_tables()) flags.emplace_back("PIXEL_TABLE");
   if (in.modules.warp_tables) flags.emplace_back("WARP_TABLE");
+  if (in.settings.interpolated_position) flags.emplace_back("INTERPOLATED");
+  const bool tessellates = in.settings.tessellation_px > 0;
+  std::vector<std::string> stages{"passes/surface.vert", fragment};
+  if (tessellates) {
+    stages = {"passes/surface_patch.vert", "passes/surface_patch.tesc", "passes/surface_patch.tese", fragment};
+    glPatchParameteri(GL_PATCH_VERTICES, 3);
+  }
   for (const auto& submission : batch.submissions) {
     gl::Flags variant = flags;
     if (submission.alpha_mask) variant.emplace_back("ALPHA_MASK");
@@ -127,10 +135,10 @@ Status FramePasses::draw_surfaces(const char* fragment, gl::Flags flags, const B
       bind_texture(UNIT_TEXTURE, group.texture.name());
       glBindSampler(UNIT_TEXTURE, group.sampler.name());
     }
-    LFD_TRY(const GLuint name, program("passes/surface.vert", fragment, variant));
+    LFD_TRY(const GLuint name, program(stages, variant));
     glUseProgram(name);
     constexpr std::size_t kCommandBytes = 20;
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+    glMultiDrawElementsIndirect(tessellates ? GL_PATCHES : GL_TRIANGLES, GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(kCommandBytes * submission.first_command),
                                 static_cast<GLsizei>(submission.count), 0);
   }
@@ -197,7 +205,7 @@ Status FramePasses::ambient_occlusion(const CommandList& commands, const FrameIn
                                       PassTimers& timers) {
   gl::Flags flags;
   if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
-  LFD_TRY(const GLuint name, program("passes/layers.vert", "passes/ao_sphere.frag", flags));
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_sphere.frag"}, flags));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
   bind_texture(UNIT_POSITION, targets.position());
@@ -206,7 +214,7 @@ Status FramePasses::ambient_occlusion(const CommandList& commands, const FrameIn
 }
 
 Status FramePasses::blur(const CommandList& commands, double sigma_px, const Targets& targets, PassTimers& timers) {
-  LFD_TRY(const GLuint name, program("passes/layers.vert", "passes/blur.frag", {}));
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/blur.frag"}, {}));
   glUseProgram(name);
   const auto weights = gaussian_weights(sigma_px);
   glUniform1i(kBlurTaps, static_cast<GLint>(weights.size()) - 1);
@@ -226,7 +234,7 @@ Status FramePasses::post(const FramePlan& plan, const CommandList& commands, con
   if (plan.ao) flags.emplace_back("READ_AO");
   if (plan.position && inputs.lights.facts.need_position) flags.emplace_back("READ_POSITION");
   if (plan.normal && inputs.lights.facts.need_normal) flags.emplace_back("READ_NORMAL");
-  LFD_TRY(const GLuint name, program("passes/layers.vert", "passes/post.frag", flags));
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/post.frag"}, flags));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.color_framebuffer());
   bind_texture(UNIT_ALBEDO, targets.albedo());

@@ -37,7 +37,7 @@ class FramePasses {
                 PassTimers& timers);
 
  private:
-  Result<GLuint> program(const std::string& vertex, const std::string& fragment, const gl::Flags& flags);
+  Result<GLuint> program(const std::vector<std::string>& stages, const gl::Flags& flags);
   void bind_inputs(const CommandList& commands, const FrameInputs& inputs);
   Status draw_surfaces(const char* fragment, gl::Flags flags, const Batch& batch, const FrameInputs& inputs);
   Status z_prepass(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,

@@ -50,6 +50,21 @@ vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 limits, vec2 pixel) {
   return vec4(start + t * direction, slope >= 0.0 ? 1.0 : -1.0);
 }
 
+// The visible point of a fragment (w as above), by what is compared: computed for its own pixel, or interpolated between vertices.
+#ifdef INTERPOLATED
+in vec3 p_interpolated;
+in vec2 s_interpolated;
+
+vec4 point_of_fragment(ModuleParams m, uint primitive, vec2 limits) {
+  if (!on_screen(m, s_interpolated)) return vec4(0.0);
+  return vec4(p_interpolated, gl_FrontFacing ? -1.0 : 1.0);  // rows run downward: what is turned to the viewer winds clockwise
+}
+#else
+vec4 point_of_fragment(ModuleParams m, uint primitive, vec2 limits) {
+  return meet(m, planes[primitive], limits, gl_FragCoord.xy);
+}
+#endif
+
 #ifdef TEXTURED
 in vec2 uv;
 flat in float texture_layer;

@@ -21,8 +21,7 @@ flat in float alpha_cutoff;
 
 void main() {
   ModuleParams m = modules[draw.x];
-  PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
-  vec4 p = meet(m, plane, frame.depth.zx, gl_FragCoord.xy);
+  vec4 p = point_of_fragment(m, draw.y + uint(gl_PrimitiveID), frame.depth.zx);
   if (p.w == 0.0 || (p.w < 0.0 && (draw.w & DRAW_DOUBLE_SIDED) == 0u)) discard;
 #ifdef ALPHA_MASK
   if (mask_alpha() * color.a < alpha_cutoff) discard;

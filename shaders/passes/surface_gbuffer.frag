@@ -29,8 +29,7 @@ layout(location = 2) out vec4 out_normal;    // world, unit, on the side that is
 void main() {
   vec4 base = texel();
   ModuleParams m = modules[draw.x];
-  PrimitivePlane plane = planes[draw.y + uint(gl_PrimitiveID)];
-  vec4 p = meet(m, plane, frame.depth.zx, gl_FragCoord.xy);
+  vec4 p = point_of_fragment(m, draw.y + uint(gl_PrimitiveID), frame.depth.zx);
   if (p.w == 0.0 || (p.w < 0.0 && (draw.w & DRAW_DOUBLE_SIDED) == 0u)) discard;
   base *= color;
 #ifdef ALPHA_MASK

@@ -6,7 +6,7 @@ struct FrameParams {
   vec4 world_from_physical_0;  // rows of the inverse: world - roi_centre = row . (P, 1)
   vec4 world_from_physical_1;
   vec4 world_from_physical_2;
-  vec4 depth;                  // x: front limit, y: scale, so that clip.z = scale * (front - depth); z: back limit; w unused
+  vec4 depth;                  // x: front limit, y: scale, so that clip.z = scale * (front - depth); z: back limit; w: px of tessellation
   vec4 background;             // linear r g b; w: number of lights
   vec4 ambient_occlusion;      // a, b, c of the curve; w: 0 ao off, 1 multiplies ambient light, 2 multiplies the whole colour
 };

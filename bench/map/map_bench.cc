@@ -1,0 +1,209 @@
+// Every variant's renderer side by side, a frame of each in turn.
+#include "bench/map/map_bench.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "bench/reference/silhouette.h"
+#include "controller/scene/made/made_scenes.h"
+#include "controller/scene/scene_file.h"
+#include "rendernode/renderer.h"
+
+namespace lfd::bench {
+namespace {
+
+constexpr FrameOptions kOnlyDraw{.buffers = {}, .time_modules = false, .reuse = false, .read_back = false};
+constexpr int kWarmUpFrames = 1;  // shaders are compiled, targets made
+
+// One variant while it is timed.
+struct Candidate {
+  MapVariant variant;
+  std::unique_ptr<Renderer> renderer;
+  MapRow row;
+  std::vector<double> gpu_ms, wall_ms;
+};
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Point3<World> point_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
+
+Result<LoadedScene> load(const Deployment& deployment) {
+  if (deployment.scene_file) return load_scene(*deployment.scene_file);
+  const auto& made = deployment.message.scene().made();
+  return scene::make_scene(made.name(), made.seed());
+}
+
+Result<proto::State> state_of(const Deployment& deployment, const proto::Scene& scene, const MapVariant& variant) {
+  const ScreenSize screen = deployment.display.screen;
+  LFD_TRY(const RegionOfInterest roi, complete_roi(deployment.message.roi(), point_from(scene.bounds_low()),
+                                                   point_from(scene.bounds_high()), screen.width_m, screen.height_m));
+  proto::State state;
+  state.set_sequence(1);
+  *state.mutable_scene() = scene;
+  *state.mutable_roi() = write_roi(roi);
+  *state.mutable_render() = deployment.message.render();
+  state.mutable_render()->MergeFrom(variant.render);
+  state.mutable_render()->mutable_ao()->set_enabled(false);
+  state.set_buffers(1U << proto::POSITION);
+  return state;
+}
+
+Status draw_one(Candidate& candidate, bool counts) {
+  const auto start = Clock::now();
+  FrameOptions options = kOnlyDraw;
+  options.buffers.bits = 1U << proto::POSITION;
+  LFD_TRY_STATUS(candidate.renderer->draw(options));
+  const FrameResult frame = candidate.renderer->collect();
+  const double wall_ms = milliseconds(Clock::now() - start);
+  if (!counts) return {};
+  double gpu_ms = 0;
+  for (const proto::PassTime& pass : frame.report.pass()) {
+    if (pass.pass() == "z_prepass" || pass.pass() == "gbuffer") gpu_ms += pass.gpu_ms();
+  }
+  candidate.gpu_ms.push_back(gpu_ms);
+  candidate.wall_ms.push_back(wall_ms);
+  return {};
+}
+
+// What the modules must show, cast once for all variants.
+struct Expected {
+  reference::HitImage hits;
+  std::vector<std::uint8_t> near_silhouette;
+};
+
+Result<Expected> cast(const proto::State& state, const Assets& assets, const DisplayCalibration& display,
+                      std::uint32_t module, const RegionOfInterest& roi) {
+  LFD_TRY(const RenderSettings settings, read_settings(state.render()));
+  const DepthLimits limits = depth_limits(display, settings);
+  LFD_TRY(const reference::WorldScene scene, reference::world_scene({state.scene(), assets}, roi));
+  const reference::Intersector intersector(scene);
+  const reference::ModuleView view{display, display.modules[module], {limits.front, limits.back}};
+  Expected expected{reference::cast_module(intersector, view), {}};
+  expected.near_silhouette = reference::near_silhouette(intersector, view, expected.hits);
+  return expected;
+}
+
+Status judge(Candidate& candidate, const Expected& expected, ImageSize size) {
+  FrameOptions options;
+  options.buffers.bits = 1U << proto::POSITION;
+  options.reuse = false;
+  LFD_TRY_STATUS(candidate.renderer->draw(options));
+  const FrameResult frame = candidate.renderer->collect();
+  const auto image = std::ranges::find(frame.images, proto::POSITION, &ModuleImage::kind);
+  LFD_CHECK(image != frame.images.end(), "the buffer that was asked for");
+  PictureF positions{size.width, size.height, {}};
+  positions.rgba.resize(static_cast<std::size_t>(size.width) * size.height * 4);
+  if (!image->empty) std::memcpy(positions.rgba.data(), image->bytes->data(), image->bytes->size());
+  candidate.row.truth = reference::compare(expected.hits, expected.near_silhouette, positions, frame.position_origin,
+                                           candidate.renderer->roi().diagonal_m());
+  candidate.row.triangles = frame.report.triangles();
+  return {};
+}
+
+Result<std::vector<Candidate>> candidates_of(const gl::Context& context, const Deployment& deployment,
+                                             const LoadedScene& scene, std::uint32_t module) {
+  std::vector<Candidate> candidates;
+  for (const MapVariant& variant : map_variants(deployment.display)) {
+    Candidate one{variant, std::make_unique<Renderer>(context, deployment.display, std::vector{module}), {}, {}, {}};
+    LFD_TRY(const proto::State state, state_of(deployment, scene.data.scene, variant));
+    const auto start = Clock::now();
+    LFD_TRY_STATUS(one.renderer->set_state(state, scene.data.assets));
+    one.row.variant = variant.name;
+    one.row.module = module;
+    one.row.build_ms = milliseconds(Clock::now() - start);
+    candidates.push_back(std::move(one));
+  }
+  return candidates;
+}
+
+void summarise(std::vector<Candidate>& candidates) {
+  const Candidate& plain = candidates.front();
+  for (Candidate& one : candidates) {
+    std::vector<double> gpu_ratio, wall_ratio;
+    for (std::size_t i = 0; i < one.wall_ms.size(); ++i) {
+      gpu_ratio.push_back(one.gpu_ms[i] / plain.gpu_ms[i]);
+      wall_ratio.push_back(one.wall_ms[i] / plain.wall_ms[i]);
+    }
+    one.row.gpu_ms = median_of(one.gpu_ms);
+    one.row.wall_ms = median_of(one.wall_ms);
+    one.row.gpu_ratio = median_of(gpu_ratio);
+    one.row.wall_ratio = median_of(wall_ratio);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds) {
+  std::vector<std::string> missed;
+  const bool by_wall = table.renderer.find("llvmpipe") != std::string::npos;
+  for (const MapRow& row : table.rows) {
+    if (row.variant != variant) continue;
+    const auto check = [&](const char* what, double value, double bound) {
+      if (value <= bound) return;
+      missed.push_back(fmt::format("module {}: {} {:.2g}; at most {:.2g} is allowed", row.module, what, value, bound));
+    };
+    check("99.9 % error", row.truth.percent_999, bounds.percent_999);
+    check("largest error", row.truth.max, bounds.max);
+    check("coverage mismatch", row.truth.mismatch_share, bounds.mismatch_share);
+    check("time over plain vertices", by_wall ? row.wall_ratio : row.gpu_ratio, bounds.ratio);
+  }
+  return missed;
+}
+
+Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& options) {
+  if (options.frames < 1) return Error(fmt::format("frames: {}; at least 1 is needed", options.frames));
+  LFD_TRY(const Deployment deployment, load_deployment(options.deployment, options.overrides));
+  const DisplayCalibration& display = deployment.display;
+  std::vector<std::uint32_t> modules = options.modules;
+  if (modules.empty()) modules = {static_cast<std::uint32_t>(display.modules.size() / 2), 0};
+  for (const std::uint32_t module : modules) {
+    if (module < display.modules.size()) continue;
+    return Error(fmt::format("module {}: the display has {}", module, display.modules.size()));
+  }
+  LFD_TRY(const LoadedScene scene, load(deployment));
+  MapTable table;
+  table.scene =
+      deployment.scene_file ? deployment.scene_file->filename().string() : deployment.message.scene().made().name();
+  table.display = display.name;
+  table.image = display.image;
+  table.renderer = context.description();
+  table.version = kVersion;
+  table.frames = options.frames;
+  for (const std::uint32_t module : modules) {
+    log::info("module {}: building", module);
+    LFD_TRY(std::vector<Candidate> candidates, candidates_of(context, deployment, scene, module));
+    table.roi_diagonal_m = candidates.front().renderer->roi().diagonal_m();
+    for (int frame = -kWarmUpFrames; frame < options.frames; ++frame) {
+      for (Candidate& one : candidates) LFD_TRY_STATUS(draw_one(one, frame >= 0));
+      if (frame >= 0) log::info("module {}: round {} of {}", module, frame + 1, options.frames);
+    }
+    summarise(candidates);
+    log::info("module {}: casting the lines of all pixels", module);
+    LFD_TRY(const proto::State state, state_of(deployment, scene.data.scene, candidates.front().variant));
+    LFD_TRY(const Expected expected,
+            cast(state, scene.data.assets, display, module, candidates.front().renderer->roi()));
+    for (Candidate& one : candidates) {
+      LFD_TRY_STATUS(judge(one, expected, display.image));
+      table.rows.push_back(one.row);
+    }
+  }
+  return table;
+}
+
+Result<MapTable> map_bench(const MapBenchOptions& options) {
+  LFD_TRY(const std::unique_ptr<gl::Context> context, gl::Context::create(options.gpu));
+  return map_bench(*context, options);
+}
+
+}  // namespace lfd::bench

@@ -1,0 +1,68 @@
+// Position error against run time, for every way of drawing through the calibrated map.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "bench/map/map_variants.h"
+#include "bench/reference/truth.h"
+#include "proto/deployment_file.h"
+
+namespace lfd::gl {
+class Context;
+}
+
+namespace lfd::bench {
+
+struct MapBenchOptions {
+  std::filesystem::path deployment;
+  DeploymentOverrides overrides;
+  std::vector<std::uint32_t> modules;  // empty: the middle one and the first
+  int frames = 20;                     // of each variant, in turn
+  int gpu = -1;                        // of `lfd-rendernode --list-gpus`; -1: the first that works
+};
+
+// One variant on one module.
+struct MapRow {
+  std::string variant;
+  std::uint32_t module = 0;
+  std::uint64_t triangles = 0;     // after cutting and subdivision
+  double build_ms = 0;             // geometry, once, on the CPU
+  double gpu_ms = 0, wall_ms = 0;  // medians over frames: z prepass and G-buffer by timer queries; submitted to done
+  double gpu_ratio = 1, wall_ratio = 1;  // medians over frames of the ratio to plain vertices in the same round
+  reference::Truth truth;
+};
+
+struct MapTable {
+  std::string scene, display;
+  ImageSize image;
+  double roi_diagonal_m = 0;
+  std::string renderer;
+  std::string version;
+  int frames = 0;
+  std::vector<MapRow> rows;  // modules in turn, their variants in the order of map_variants()
+};
+
+// What a way of drawing has to keep on every module, and how much of plain vertices' time it may take.
+struct MapBounds {
+  double percent_999 = 1e-4, max = 1e-3, mismatch_share = 5e-4, ratio = 2;
+};
+
+// One line for each bound that a variant misses, with module and both numbers. None: it may be the default. On a
+// rasteriser that works on the CPU timer queries leave vertices out, so the ratio is that of the wall clock there.
+std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds = {});
+
+// Loads, times, judges; progress goes to the log. Errors: files, numbers that do not fit, the driver.
+Result<MapTable> map_bench(const MapBenchOptions& options);
+Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& options);
+
+std::string text_of(const MapTable& table);
+std::string csv_of(const MapTable& table);
+std::string json_of(const MapTable& table);
+// Error (99.9 %) over time, both logarithmic, one picture for all modules.
+std::string svg_of(const MapTable& table);
+
+}  // namespace lfd::bench
