@@ -188,7 +188,13 @@ Status save_calibration(const std::filesystem::path& path, const DisplayCalibrat
                         std::optional<GridFileFormat> grids) {
   proto::DisplayCalibration message = write_calibration(display);
   if (grids) LFD_TRY_STATUS(write_grid_files(message, path.parent_path(), path.stem().string(), *grids));
-  return write_file(path, print_text(message));
+  const std::string text = print_text(message);
+  if (text.size() > kTextFileLimit_bytes) {
+    return Error(
+        fmt::format("{}: {} bytes, of which at most {} would be read again; put the grids into files beside it",
+                    path.string(), text.size(), kTextFileLimit_bytes));
+  }
+  return write_file(path, text);
 }
 
 std::string calibration_hash(const DisplayCalibration& display) {

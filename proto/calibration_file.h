@@ -22,7 +22,7 @@ proto::DisplayCalibration write_calibration(const DisplayCalibration& display);
 Result<DisplayCalibration> load_calibration(const std::filesystem::path& path);
 
 // load_calibration of the file written gives an equal display. With `grids` the nodes of measured maps lie in files
-// beside it (STEM-module-003.pfm); PFM rounds them to float32.
+// beside it (STEM-module-003.pfm); PFM rounds them to float32. Refuses more text than kTextFileLimit_bytes.
 Status save_calibration(const std::filesystem::path& path, const DisplayCalibration& display,
                         std::optional<GridFileFormat> grids = std::nullopt);
 
