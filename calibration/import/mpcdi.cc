@@ -2,6 +2,7 @@
 #include "calibration/import/mpcdi.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
