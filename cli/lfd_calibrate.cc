@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   int exit_code = lfd::kExitDone;
   lfd::add_make_command(app, exit_code);
   lfd::add_import_command(app, exit_code);
+  lfd::add_export_command(app, exit_code);
   lfd::add_info_command(app, exit_code);
   lfd::add_check_command(app, exit_code);
   lfd::add_map_command(app, exit_code);

@@ -1,13 +1,30 @@
 // The commands of lfd-calibrate: each adds itself to the command line.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "base/command_line.h"
+#include "proto/grid_files.h"
 
 namespace lfd {
 
-// Writing calibrations: make, import.
+// --grids pfm|csv: the nodes of measured maps go into files beside the one written.
+inline void add_grids_option(CLI::App& command, std::string& grids) {
+  command
+      .add_option("--grids", grids,
+                  "Put the nodes of measured maps into files beside FILE: pfm (float32) or csv; inside without it")
+      ->check(CLI::IsMember({"pfm", "csv"}));
+}
+inline std::optional<GridFileFormat> grid_format_of(const std::string& grids) {
+  if (grids.empty()) return std::nullopt;
+  return grids == "pfm" ? GridFileFormat::kPfm : GridFileFormat::kCsv;
+}
+
+// Writing calibrations: make, import, export.
 void add_make_command(CLI::App& app, int& exit_code);
 void add_import_command(CLI::App& app, int& exit_code);
+void add_export_command(CLI::App& app, int& exit_code);
 
 // Judging one: info, check.
 void add_info_command(CLI::App& app, int& exit_code);

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "base/file.h"
 #include "base/log.h"
 #include "base/suggest.h"
 #include "calibration/import/format.h"
+#include "calibration/import/mpcdi.h"
 #include "calibration/make.h"
 #include "cli/lfd_calibrate.h"
 #include "proto/calibration_file.h"
@@ -23,15 +26,20 @@ struct MakeOptions {
 };
 
 struct ImportOptions {
-  std::string file, format, out;
+  std::string file, format, like, grids, out;
+  std::vector<double> origin;  // none or three
+  MpcdiImportOptions mpcdi;
 };
 
-int write_display(const DisplayCalibration& display, const std::string& out) {
+constexpr std::size_t kForeignFileLimit_bytes = std::size_t{1} << 31;
+
+int write_display(const DisplayCalibration& display, const std::string& out,
+                  std::optional<GridFileFormat> grids = std::nullopt) {
   if (out.empty()) {
     std::cout << print_text(write_calibration(display)) << std::flush;
     return std::cout ? kExitDone : fail(Error("standard output: cannot be written"));
   }
-  if (auto status = save_calibration(out, display); !status) return fail(status.error());
+  if (auto status = save_calibration(out, display, grids); !status) return fail(status.error());
   return kExitDone;
 }
 
@@ -47,22 +55,49 @@ int run_make(const MakeOptions& options) {
   return write_display(options.seed ? perturbed(*display, *options.seed) : *display, options.out);
 }
 
-Result<DisplayCalibration> import_file(const ImportOptions& options) {
-  LFD_TRY(const std::string text, read_file(options.file, kTextFileLimit_bytes));
-  const auto found = foreign_format_of(text);
-  if (options.format.empty() && !found) {
-    return Error("neither a HoloVizio model (JSON) nor an LFDisplay configuration (YAML)").within(options.file);
+constexpr std::pair<const char*, ForeignFormat> kFormats[] = {
+    {"holovizio", ForeignFormat::kHolovizioJson},
+    {"lfdisplay", ForeignFormat::kLfdisplayYaml},
+    {"mpcdi", ForeignFormat::kMpcdi},
+};
+
+Result<ForeignFormat> format_of(const ImportOptions& options, std::string_view content) {
+  for (const auto& [name, format] : kFormats) {
+    if (options.format == name) return format;
   }
-  const ForeignFormat format = options.format.empty()          ? *found
-                               : options.format == "holovizio" ? ForeignFormat::kHolovizioJson
-                                                               : ForeignFormat::kLfdisplayYaml;
-  return import_display(format, text, options.file);
+  const auto found = foreign_format_of(content);
+  if (found) return *found;
+  return Error("neither a HoloVizio model (JSON) nor an LFDisplay configuration (YAML) nor MPCDI (ZIP)");
+}
+
+Result<DisplayCalibration> import_mpcdi_file(const ImportOptions& options, std::string_view content) {
+  MpcdiImportOptions mpcdi = options.mpcdi;
+  std::optional<DisplayCalibration> like;
+  if (!options.like.empty()) {
+    LFD_TRY(like, load_calibration(options.like));
+    mpcdi.like = &*like;
+  }
+  if (!options.origin.empty()) mpcdi.origin = {options.origin[0], options.origin[1], options.origin[2]};
+  LFD_TRY(MpcdiImport import, import_mpcdi(content, options.file, mpcdi));
+  for (const std::string& warning : import.warnings)
+    std::cerr << fmt::format("{}: warning: {}\n", options.file, warning);
+  return std::move(import.display);
+}
+
+Result<DisplayCalibration> import_file(const ImportOptions& options) {
+  LFD_TRY(const std::string content, read_file(options.file, kForeignFileLimit_bytes));
+  const auto format = format_of(options, content);
+  if (!format) return format.error().within(options.file);
+  return *format == ForeignFormat::kMpcdi ? import_mpcdi_file(options, content)
+                                          : import_display(*format, content, options.file);
 }
 
 int run_import(const ImportOptions& options) {
+  if (!options.grids.empty() && options.out.empty())
+    return wrong_use(Error("--grids needs --out: files lie beside it"));
   const auto display = import_file(options);
   if (!display) return fail(display.error());
-  return write_display(*display, options.out);
+  return write_display(*display, options.out, grid_format_of(options.grids));
 }
 
 }  // namespace
@@ -84,10 +119,37 @@ void add_import_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* command = add_command(app, "import", "Turn a foreign file into a calibration", exit_code,
                                   [options] { return run_import(*options); });
-  command->add_option("FILE", options->file, "HoloVizio model (JSON) or LFDisplay configuration (YAML)")->required();
-  command->add_option("--format", options->format, "holovizio or lfdisplay; found from the content without it")
-      ->check(CLI::IsMember({"holovizio", "lfdisplay"}));
+  command
+      ->add_option("FILE", options->file,
+                   "HoloVizio model (JSON), LFDisplay configuration (YAML) or MPCDI of profile a3 (ZIP)")
+      ->required();
+  command->add_option("--format", options->format, "holovizio, lfdisplay or mpcdi; found from the content without it")
+      ->check(CLI::IsMember({"holovizio", "lfdisplay", "mpcdi"}));
   command->add_option("--out", options->out, "File to write; standard output without it")->type_name("FILE");
+  command
+      ->add_option("--like", options->like,
+                   "MPCDI: calibration that gives the screen, the optics and the emitters of the modules, in the order "
+                   "of the regions")
+      ->type_name("DISPLAY");
+  command
+      ->add_option("--origin", options->origin,
+                   "MPCDI: where the origin of the file's points lies in physical space, m; what the file says without "
+                   "it")
+      ->expected(3)
+      ->type_name("X Y Z");
+  command
+      ->add_option("--tolerance", options->mpcdi.tolerance_m,
+                   "MPCDI: how far points may be off the screen's surface, m")
+      ->check(CLI::PositiveNumber)
+      ->type_name("M")
+      ->capture_default_str();
+  command
+      ->add_option("--nodes", options->mpcdi.most_nodes,
+                   "MPCDI: nodes of a map along each side at most; larger warps are thinned")
+      ->check(CLI::Range(2, kMaxGridSide))
+      ->type_name("N")
+      ->capture_default_str();
+  add_grids_option(*command, options->grids);
 }
 
 }  // namespace lfd

@@ -1,5 +1,6 @@
 # How everything is compiled: warnings are errors, sanitizers and clang-tidy on request.
 set(LFD_SANITIZE "" CACHE STRING "Sanitizers for all targets, e.g. address,undefined")
+option(LFD_FUZZ "Build the targets of tests/fuzz as fuzzers (clang)" OFF)
 option(LFD_TIDY "Run clang-tidy beside every compile" OFF)
 
 find_program(CCACHE_PROGRAM ccache)
@@ -14,6 +15,13 @@ endif()
 if(LFD_SANITIZE)
   add_compile_options(-fsanitize=${LFD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${LFD_SANITIZE})
+endif()
+if(LFD_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "LFD_FUZZ needs clang: -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link,address -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address)
 endif()
 
 add_library(lfd_warnings INTERFACE)

@@ -178,13 +178,23 @@ proto::DisplayCalibration write_calibration(const DisplayCalibration& display) {
 Result<DisplayCalibration> load_calibration(const std::filesystem::path& path) {
   proto::DisplayCalibration message;
   LFD_TRY(const TextPlaces places, read_text_file(path, message));
+  if (auto status = read_grid_files(message, path.parent_path()); !status) return places.locate(status.error());
   auto display = read_calibration(message);
   if (!display) return places.locate(display.error());
   return display;
 }
 
-Status save_calibration(const std::filesystem::path& path, const DisplayCalibration& display) {
-  return write_file(path, print_text(write_calibration(display)));
+Status save_calibration(const std::filesystem::path& path, const DisplayCalibration& display,
+                        std::optional<GridFileFormat> grids) {
+  proto::DisplayCalibration message = write_calibration(display);
+  if (grids) LFD_TRY_STATUS(write_grid_files(message, path.parent_path(), path.stem().string(), *grids));
+  const std::string text = print_text(message);
+  if (text.size() > kTextFileLimit_bytes) {
+    return Error(
+        fmt::format("{}: {} bytes, of which at most {} would be read again; put the grids into files beside it",
+                    path.string(), text.size(), kTextFileLimit_bytes));
+  }
+  return write_file(path, text);
 }
 
 std::string calibration_hash(const DisplayCalibration& display) {

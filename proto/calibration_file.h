@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "base/result.h"
 #include "calibration/display.h"
 #include "proto/calibration.pb.h"
+#include "proto/grid_files.h"
 
 namespace lfd {
 
@@ -19,8 +21,10 @@ proto::DisplayCalibration write_calibration(const DisplayCalibration& display);
 // Errors name file, line, module and field: "wall.textproto:14: module 3: pinhole: focal_u_px: ...".
 Result<DisplayCalibration> load_calibration(const std::filesystem::path& path);
 
-// load_calibration of the file written gives an equal display.
-Status save_calibration(const std::filesystem::path& path, const DisplayCalibration& display);
+// load_calibration of the file written gives an equal display. With `grids` the nodes of measured maps lie in files
+// beside it (STEM-module-003.pfm); PFM rounds them to float32. Refuses more text than kTextFileLimit_bytes.
+Status save_calibration(const std::filesystem::path& path, const DisplayCalibration& display,
+                        std::optional<GridFileFormat> grids = std::nullopt);
 
 // Equal calibrations, and in practice only they, have equal hashes (base/hash.h).
 std::string calibration_hash(const DisplayCalibration& display);

@@ -19,7 +19,10 @@
 namespace lfd {
 namespace {
 
-constexpr std::array<const char*, 4> kChannels = {"R", "G", "B", "A"};
+using ChannelNames = std::array<std::string, 4>;
+
+const ChannelNames kChannels = {"R", "G", "B", "A"};
+constexpr int kMostSide = 1 << 20;
 
 class MemoryOut : public Imf::OStream {
  public:
@@ -59,26 +62,29 @@ class MemoryIn : public Imf::IStream {
 };
 
 // Slices of an interleaved picture whose first pixel is (x, y) of the data window.
-Imf::FrameBuffer slices(float* rgba, int width, int x, int y) {
+Imf::FrameBuffer slices(const ChannelNames& names, float* rgba, int width, int x, int y) {
   Imf::FrameBuffer buffer;
   const std::size_t pixel = 4 * sizeof(float), row = pixel * width;
-  for (std::size_t channel = 0; channel < kChannels.size(); ++channel) {
+  for (std::size_t channel = 0; channel < names.size(); ++channel) {
+    if (names[channel].empty()) continue;
     char* base = reinterpret_cast<char*>(rgba + channel) - static_cast<std::ptrdiff_t>(pixel) * x -
                  static_cast<std::ptrdiff_t>(row) * y;
-    buffer.insert(kChannels[channel], Imf::Slice(Imf::FLOAT, base, pixel, row));
+    buffer.insert(names[channel], Imf::Slice(Imf::FLOAT, base, pixel, row));
   }
   return buffer;
 }
 
-Result<PictureF> read(Imf::InputFile& file) {
+Result<PictureF> read(Imf::InputFile& file, const ChannelNames& names, int most_side) {
   const auto& window = file.header().dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
                      height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (width < 1 || height < 1 || width > (1 << 20) || height > (1 << 20) ||
+  if (width < 1 || height < 1 || width > most_side || height > most_side ||
       static_cast<std::size_t>(width * height) > kMaxPicturePixels) {
-    return Error(fmt::format("EXR: {} x {} pixels; at most {} are read", width, height, kMaxPicturePixels));
+    return Error(fmt::format("EXR: {} x {} pixels; at most {} are read, at most {} a side", width, height,
+                             kMaxPicturePixels, most_side));
   }
-  for (const char* name : kChannels) {
+  for (const std::string& name : names) {
+    if (name.empty()) continue;
     const Imf::Channel* channel = file.header().channels().findChannel(name);
     if (channel == nullptr) return Error(fmt::format("EXR: no channel {}", name));
     if (channel->xSampling != 1 || channel->ySampling != 1)
@@ -86,7 +92,7 @@ Result<PictureF> read(Imf::InputFile& file) {
   }
   PictureF picture{static_cast<int>(width), static_cast<int>(height),
                    std::vector<float>(std::size_t{4} * width * height)};
-  file.setFrameBuffer(slices(picture.rgba.data(), picture.width, window.min.x, window.min.y));
+  file.setFrameBuffer(slices(names, picture.rgba.data(), picture.width, window.min.x, window.min.y));
   file.readPixels(window.min.y, window.max.y);
   return picture;
 }
@@ -99,12 +105,12 @@ Result<std::string> encode_exr(const PictureF& picture) {
   try {
     Imf::Header header(picture.width, picture.height);
     header.compression() = Imf::ZIP_COMPRESSION;
-    for (const char* name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    for (const std::string& name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     MemoryOut out;
     {
       Imf::OutputFile file(out, header);
       // OpenEXR only reads through this pointer.
-      file.setFrameBuffer(slices(const_cast<float*>(picture.rgba.data()), picture.width, 0, 0));
+      file.setFrameBuffer(slices(kChannels, const_cast<float*>(picture.rgba.data()), picture.width, 0, 0));
       file.writePixels(picture.height);
     }
     return out.take();
@@ -113,11 +119,26 @@ Result<std::string> encode_exr(const PictureF& picture) {
   }
 }
 
-Result<PictureF> decode_exr(std::string_view content) {
+Result<PictureF> decode_exr_channels(std::string_view content, const ChannelNames& names, int most_side) {
   try {
     MemoryIn in(content);
     Imf::InputFile file(in);
-    return read(file);
+    return read(file, names, most_side);
+  } catch (const std::exception& error) {
+    return Error(fmt::format("EXR: {}", error.what()));
+  }
+}
+
+Result<PictureF> decode_exr(std::string_view content) { return decode_exr_channels(content, kChannels, kMostSide); }
+
+Result<std::vector<std::string>> exr_channels(std::string_view content) {
+  try {
+    MemoryIn in(content);
+    const Imf::InputFile file(in);
+    std::vector<std::string> names;
+    const Imf::ChannelList& channels = file.header().channels();
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) names.emplace_back(channel.name());
+    return names;
   } catch (const std::exception& error) {
     return Error(fmt::format("EXR: {}", error.what()));
   }

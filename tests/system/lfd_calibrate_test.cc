@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 namespace lfd {
@@ -83,6 +85,24 @@ TEST(LfdCalibrate, ChecksAndRefuses) {
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_THAT(strict.text, HasSubstr("missed: coverage"));
   EXPECT_EQ(calibrate("check /no/such/file").exit_code, 1);
+}
+
+TEST(LfdCalibrate, ExportsAndImportsMpcdi) {
+  const std::string folder = testing::TempDir() + "lfd-calibrate-mpcdi-" + std::to_string(getpid());
+  const std::string archive = folder + "/desk.mpcdi", copy = folder + "/copy.textproto";
+  EXPECT_EQ(calibrate("export " + kDesk + " --out " + archive + " --size 64 48").exit_code, 0);
+  const Answer import = calibrate("import " + archive + " --nodes 33 --grids pfm --out " + copy);
+  EXPECT_EQ(import.exit_code, 0) << import.text;
+  EXPECT_THAT(import.text, HasSubstr("warning: warps of 64 x 48 points were thinned to 33 x 33 (in 8 of 8 regions)"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/copy-module-007.pfm"));
+  double u = 0, v = 0;
+  const Answer answer = calibrate("map " + copy + " --module 3", "0 0 0\\n");
+  ASSERT_EQ(std::sscanf(answer.text.c_str(), "%lf %lf", &u, &v), 2) << answer.text;
+  EXPECT_NEAR(u, 128, 1e-4);  // float32 of 0.2 m, at 640 px a metre
+  EXPECT_NEAR(v, 96, 1e-4);
+  EXPECT_EQ(calibrate("export " + kDesk + " --out " + folder + "/desk.zip").exit_code, 2);
+  EXPECT_EQ(calibrate("import " + archive + " --grids csv").exit_code, 2);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -57,6 +57,8 @@ const std::vector<Door>& doors() {
       {{"jpeglib.h", "jerror.h"}, {"proto/pictures/jpeg.cc"}},
       {{"Imf", "Imath"}, {"proto/pictures/exr.cc"}},
       {{"yaml-cpp/"}, {"calibration/import/lfdisplay_yaml.cc"}},
+      {{"zip.h"}, {"calibration/import/zip_archive.cc"}},
+      {{"pugixml.hpp"}, {"calibration/import/mpcdi_xml"}},
       {{"nlohmann/"},
        {"calibration/import/holovizio_json.cc", "cli/report.cc", "bench/frame/print_json.cc",
         "bench/map/map_print.cc"}},

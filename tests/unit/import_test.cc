@@ -142,6 +142,7 @@ TEST(Import, OpencvDialectBecomesPlainYaml) {
 TEST(Import, TellsFormatsByTheirContent) {
   EXPECT_EQ(foreign_format_of(kJson), ForeignFormat::kHolovizioJson);
   EXPECT_EQ(foreign_format_of(kYaml), ForeignFormat::kLfdisplayYaml);
+  EXPECT_EQ(foreign_format_of("PK\x03\x04"), ForeignFormat::kMpcdi);
   EXPECT_EQ(foreign_format_of("name: \"desk\""), std::nullopt);
   EXPECT_EQ(foreign_format_of(""), std::nullopt);
 }

@@ -1,0 +1,56 @@
+// lfd-calibrate export: calibrations written for other programs.
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "calibration/import/mpcdi.h"
+#include "cli/lfd_calibrate.h"
+#include "proto/calibration_file.h"
+
+namespace lfd {
+namespace {
+
+struct ExportOptions {
+  std::string file, out, grids;
+  std::vector<int> size;  // none or two
+};
+
+int run_export(const ExportOptions& options) {
+  const auto display = load_calibration(options.file);
+  if (!display) return fail(display.error());
+  if (options.out.ends_with(".textproto")) {
+    const auto status = save_calibration(options.out, *display, grid_format_of(options.grids));
+    return status ? kExitDone : fail(status.error());
+  }
+  if (!options.out.ends_with(".mpcdi")) {
+    return wrong_use(Error(fmt::format("--out {}: its name must end in .mpcdi or .textproto", options.out)));
+  }
+  std::optional<ImageSize> size;
+  if (!options.size.empty()) size = ImageSize{options.size[0], options.size[1]};
+  const auto archive = export_mpcdi(*display, size);
+  if (!archive) return fail(archive.error().within(options.file));
+  const auto status = write_file(options.out, *archive);
+  return status ? kExitDone : fail(status.error());
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = add_command(app, "export", "Write a calibration for other programs", exit_code,
+                                  [options] { return run_export(*options); });
+  command->add_option("FILE", options->file, "Calibration file (*.textproto)")->required();
+  command
+      ->add_option("--out", options->out,
+                   "File to write: *.mpcdi (MPCDI 2.0, profile a3) or *.textproto (a calibration again, see --grids)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--size", options->size, "MPCDI: pixels of each module's warp; the image's own size without it")
+      ->expected(2)
+      ->type_name("WIDTH HEIGHT");
+  add_grids_option(*command, options->grids);
+}
+
+}  // namespace lfd
