@@ -79,7 +79,7 @@ TEST(LfdCalibrate, WrongUseSaysWhatWasMeant) {
 
 TEST(LfdCalibrate, ChecksAndRefuses) {
   EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
-  const Answer strict = calibrate("check " + kDesk + " --coverage 1.5");
+  const Answer strict = calibrate("check " + kDesk + " --min-coverage 1.5");
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_THAT(strict.text, HasSubstr("missed: coverage"));
   EXPECT_EQ(calibrate("check /no/such/file").exit_code, 1);
