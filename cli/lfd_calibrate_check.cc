@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "cli/lfd_calibrate.h"
+#include "cli/plots/check_plots.h"
 #include "proto/calibration_file.h"
 
 namespace lfd {
@@ -100,6 +101,11 @@ void print_modules(const CalibrationReport& report) {
 int run_check(const CheckOptions& options) {
   const auto display = load_calibration(options.file);
   if (!display) return fail(display.error());
+  const int modules = static_cast<int>(display->modules.size());
+  if (options.plot_module && *options.plot_module >= modules) {
+    return wrong_use(
+        Error(fmt::format("--module: {}; the display has modules 0 to {}", *options.plot_module, modules - 1)));
+  }
   const auto report = check_calibration(*display, options.depth_m.value_or(default_half_depth_m(*display)));
   const auto missed = missed_limits(report, options.limits);
   if (options.json) {
@@ -110,6 +116,10 @@ int run_check(const CheckOptions& options) {
     print_depth(report.depth);
     if (options.per_module) print_modules(report);
     print_line("verdict", missed.empty() ? "accepted" : "refused");
+  }
+  if (!options.plot_folder.empty()) {
+    const auto plotted = write_check_plots(options.plot_folder, *display, report, options.plot_module);
+    if (!plotted) return fail(plotted.error());
   }
   std::cout << std::flush;
   for (const std::string& limit : missed) std::cerr << "missed: " << limit << "\n";
@@ -146,6 +156,9 @@ void add_check_command(CLI::App& app, int& exit_code) {
                     "Everything as one JSON object: accepted, missed, limits, all, worst_module, coverage_any, "
                     "pixel_width_m, angles, depth, modules; null for what is infinite or absent");
   command->add_flag("--per-module", options->per_module, "A table of all modules as well");
+  command->add_option("--plot", options->plot_folder, "Write pictures (SVG) into this folder")->type_name("DIR");
+  command->add_option("--module", options->plot_module, "The module that pictures of one show; without it the worst")
+      ->check(CLI::NonNegativeNumber);
   add_limits(*command, options->limits);
 }
 

@@ -36,7 +36,13 @@ struct AngularReport {
 // `display` is valid.
 AngularReport check_angles(const DisplayCalibration& display);
 
-// Horizontal angle at which a point sees an emitter behind the screen: 0 straight behind it, positive to the right.
-double angle_of_emitter(Point3<Physical> seen_from, const Emitter& emitter);
+// The direction of a module's emitter from a point: 0 straight behind it, positive to the right.
+struct EmitterDirection {
+  int module = 0;
+  double angle_rad = 0;
+};
+
+// Seen from a point of the screen, left to right; one of those that agree within 1e-9 rad.
+std::vector<EmitterDirection> emitter_directions(const DisplayCalibration& display, ScreenPoint s);
 
 }  // namespace lfd
