@@ -20,7 +20,7 @@ std::vector<double> ticks_in(Range range, int wanted) {
   const double low = std::min(range.from, range.to), high = std::max(range.from, range.to);
   if (!(high > low) || !std::isfinite(high - low)) return {};
   const double raw = (high - low) / wanted, decade = std::pow(10, std::floor(std::log10(raw)));
-  const double share = raw / decade, step = decade * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+  const double share = raw / decade, step = decade * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
   std::vector<double> ticks;
   const double slack = 1e-9 * step;  // a tick on the border counts
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
@@ -33,7 +33,7 @@ Box with_equal_scales(const Box& box, Range x, Range y) {
   const double width = std::abs(x.to - x.from), height = std::abs(y.to - y.from);
   const double px_per_unit = std::min(box.width / width, box.height / height);
   const double w = width * px_per_unit, h = height * px_per_unit;
-  return {box.x + (box.width - w) / 2, box.y + (box.height - h) / 2, w, h};
+  return {box.x + (box.width - w) / 2, box.y, w, h};
 }
 
 Place Axes::at(double x, double y) const {

@@ -16,7 +16,8 @@ struct Range {
 // Multiples of 1, 2 or 5 times a power of ten within the range, about `wanted` of them, ascending.
 std::vector<double> ticks_in(Range range, int wanted);
 
-// The largest box of the ranges' own proportions in the middle of `box`: one metre is as long in both directions.
+// The largest box of the ranges' own proportions, at the upper edge of `box` and in its middle: one metre is as long in
+// both directions.
 Box with_equal_scales(const Box& box, Range x, Range y);
 
 struct Labels {
@@ -28,6 +29,7 @@ class Axes {
   Axes(const Box& box, Range x, Range y) : box_(box), x_(x), y_(y) {}
 
   const Box& box() const { return box_; }
+  double bottom_px() const { return box_.y + box_.height; }
   Place at(double x, double y) const;
 
   // Frame, ticks and labels, all outside the box but for the frame.

@@ -89,8 +89,8 @@ std::string grid(const DisplayCalibration& display, int module) {
   const auto& map = std::get<GridMap>(display.modules[static_cast<std::size_t>(module)].map);
   const GridNodes& nodes = map.nodes();
   const auto [s, y] = ranges_of(display, nodes);
-  Svg svg(1000, 720);
-  const Axes axes(with_equal_scales({90, 90, 680, 520}, s, y), s, y);
+  const Axes axes(with_equal_scales({90, 60, 680, 620}, s, y), s, y);
+  Svg svg(1000, axes.bottom_px() + 90);
   draw_mesh(svg, axes, nodes);
   const int marks = draw_faults(svg, axes, map);
   const double half_s = display.screen.width_m / 2, half_y = display.screen.height_m / 2;
@@ -99,11 +99,11 @@ std::string grid(const DisplayCalibration& display, int module) {
   axes.draw(svg, {fmt::format("{}, module {}: {} x {} measured nodes on the screen", display.name, module,
                               nodes.columns, nodes.rows),
                   "s, m", "y, m"});
-  draw_key(svg, {800, 110}, "#5f88c4", "lines of nodes");
-  draw_key(svg, {800, 134}, "#222222", "border of the screen");
-  draw_key(svg, {800, 158}, kHoleInk, "nodes beside a hole");
-  draw_key(svg, {800, 182}, kFoldInk, "folded cells");
-  svg.text({430, 690},
+  draw_key(svg, {800, 70}, "#5f88c4", "lines of nodes");
+  draw_key(svg, {800, 94}, "#222222", "border of the screen");
+  draw_key(svg, {800, 118}, kHoleInk, "nodes beside a hole");
+  draw_key(svg, {800, 142}, kFoldInk, "folded cells");
+  svg.text({430, axes.bottom_px() + 66},
            fmt::format("{:.2f} % of the cells lack a corner, {:.2f} % of the others have folded.{}",
                        100 * (1 - map.complete_share()), 100 * map.folded_share(),
                        marks < kMostMarks ? "" : " Only the first of them are marked."),

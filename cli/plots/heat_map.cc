@@ -21,6 +21,7 @@ constexpr std::array<Colour, 9> kViridis{{{68, 1, 84},
                                           {170, 220, 50},
                                           {253, 231, 37}}};
 constexpr double kLogarithmicFrom = 20;
+constexpr double kFar = 2;
 
 std::vector<double> finite(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -38,10 +39,18 @@ std::string colour_at(double share) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-// The value at a share of the scale.
-double value_at(const ColourScale& scale, double share) {
-  if (!scale.is_logarithmic) return scale.low + share * (scale.high - scale.low);
-  return scale.low * std::pow(scale.high / scale.low, share);
+// The numbers that stand beside a scale: round ones; of a logarithmic one, powers of ten.
+std::vector<double> numbers_of(const ColourScale& scale) {
+  std::vector<double> numbers;
+  if (scale.is_logarithmic) {
+    for (const double decade : ticks_in({std::log10(scale.low), std::log10(scale.high)}, 5)) {
+      if (decade == std::round(decade)) numbers.push_back(std::pow(10, decade));
+    }
+    return numbers.empty() ? std::vector{scale.low, scale.high} : numbers;
+  }
+  numbers = ticks_in({scale.low, scale.high}, 5);
+  if (scale.is_whole) std::erase_if(numbers, [](double number) { return number != std::round(number); });
+  return numbers;
 }
 
 }  // namespace
@@ -53,11 +62,13 @@ double ColourScale::share_of(double value) const {
 
 std::string ColourScale::colour_of(double value) const { return colour_at(share_of(value)); }
 
-ColourScale scale_for(const std::vector<double>& values) {
-  const std::vector<double> known = finite(values);
+ColourScale scale_for(std::vector<double> values) {
+  std::vector<double> known = finite(std::move(values));
   if (known.empty()) return {};
-  const auto [low, high] = std::ranges::minmax_element(known);
-  ColourScale scale{*low, *high, *low > 0 && *high / *low > kLogarithmicFrom};
+  std::ranges::sort(known);
+  const double low = known.front(), most = known[known.size() * 98 / 100];
+  const double high = known.back() - low > kFar * (most - low) && most > low ? most : known.back();
+  ColourScale scale{low, high, low > 0 && high / low > kLogarithmicFrom};
   if (!(scale.high > scale.low * (1 + 1e-6))) scale.high = scale.low + std::max(1e-3 * std::abs(scale.low), 1e-300);
   return scale;
 }
@@ -65,6 +76,7 @@ ColourScale scale_for(const std::vector<double>& values) {
 void draw_field(Svg& svg, const Axes& axes, const Field& field, const ColourScale& scale) {
   const Box& box = axes.box();
   const double width = box.width / field.columns, height = box.height / field.rows;
+  svg.begin_crisp();
   for (int row = 0; row < field.rows; ++row) {
     for (int column = 0; column < field.columns; ++column) {
       const double value = field.value[static_cast<std::size_t>(row * field.columns + column)];
@@ -74,21 +86,23 @@ void draw_field(Svg& svg, const Axes& axes, const Field& field, const ColourScal
                     {.fill = scale.colour_of(value)});
     }
   }
+  svg.end_group();
 }
 
 void draw_scale(Svg& svg, const Box& box, const ColourScale& scale, const std::string& label) {
-  constexpr int kSteps = 64, kNumbers = 5;
+  constexpr int kSteps = 64;
+  svg.begin_crisp();
   for (int i = 0; i < kSteps; ++i) {
     const double height = box.height / kSteps;
     svg.rectangle({box.x, box.y + box.height - (i + 1) * height, box.width, height + 0.4},
                   {.fill = colour_at((i + 0.5) / kSteps)});
   }
+  svg.end_group();
   svg.rectangle(box, {.stroke = "#444444"});
-  for (int i = 0; i < kNumbers; ++i) {
-    const double share = static_cast<double>(i) / (kNumbers - 1);
-    const double place = box.y + box.height * (1 - share);
+  for (const double number : numbers_of(scale)) {
+    const double place = box.y + box.height * (1 - scale.share_of(number));
     svg.line({box.x + box.width, place}, {box.x + box.width + 4, place}, {.stroke = "#444444"});
-    svg.text({box.x + box.width + 8, place + 4}, fmt::format("{:.4g}", value_at(scale, share)), {.size_px = 11});
+    svg.text({box.x + box.width + 8, place + 4}, fmt::format("{:.4g}", number), {.size_px = 11});
   }
   svg.text({box.x, box.y - 10}, label, {.size_px = 11});
 }

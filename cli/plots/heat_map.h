@@ -12,13 +12,15 @@ namespace lfd::plots {
 struct ColourScale {
   double low = 0, high = 1;
   bool is_logarithmic = false;
+  bool is_whole = false;  // its values are whole numbers
 
   std::string colour_of(double value) const;
   double share_of(double value) const;  // 0 at low, 1 at high; limited
 };
 
-// From the smallest to the largest finite value, logarithmic from a factor of 20; never empty.
-ColourScale scale_for(const std::vector<double>& values);
+// From the smallest finite value to the largest, or to the 98 % quantile where few are more than twice as far away;
+// logarithmic from a factor of 20; never empty.
+ColourScale scale_for(std::vector<double> values);
 
 // columns x rows places over the whole of the axes, the first at their lower left. What is not finite is left out.
 struct Field {

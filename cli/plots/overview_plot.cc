@@ -144,9 +144,9 @@ void draw_spacing(Svg& svg, const Box& box, const DisplayCalibration& display, c
     std::vector<Place> points;
   };
   const double border = display.screen.width_m / 2;
-  const Series series[] = {{"from the centre", "#1f5fbf", spacings(display, 0)},
-                           {"from the left border", "#e08214", spacings(display, -border)},
-                           {"from the right border", "#8c4ab0", spacings(display, border)}};
+  const Series series[] = {{"from the left border", "#e08214", spacings(display, -border)},
+                           {"from the right border", "#8c4ab0", spacings(display, border)},
+                           {"from the centre", "#1f5fbf", spacings(display, 0)}};
   Range direction{0, 0}, spacing{0, 0};
   for (const Series& one : series) {
     for (const Place p : one.points) {

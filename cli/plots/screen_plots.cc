@@ -35,22 +35,24 @@ Field condition_field(const DisplayCalibration& display, int module, double dist
 }  // namespace
 
 std::string coverage(const DisplayCalibration& display, const CalibrationReport& report) {
-  Svg svg(900, 680);
   const Range x = across(display.screen.width_m), y = across(display.screen.height_m);
-  const Axes axes(with_equal_scales({90, 90, 640, 480}, x, y), x, y);
+  const Axes axes(with_equal_scales({90, 60, 640, 480}, x, y), x, y);
   Field field{report.sampling.screen_columns, report.sampling.screen_rows, {}};
   for (const int count : report.lit_by) field.value.push_back(count == 0 ? kNone : count);
-  const ColourScale scale{0, static_cast<double>(display.modules.size()), false};
+  const auto modules = static_cast<double>(display.modules.size());
+  const double least = *std::ranges::min_element(report.lit_by);
+  const ColourScale scale{std::min(least, modules - 1), modules, false, true};
+  Svg svg(900, std::max(axes.bottom_px() + 90, 450.0));
   svg.rectangle(axes.box(), {.fill = "#000000"});
   draw_field(svg, axes, field, scale);
   axes.draw(svg, {fmt::format("{}: how many of {} modules light each place of the screen", display.name,
                               display.modules.size()),
                   "s, m (right as a viewer sees it)", "y, m"});
-  draw_scale(svg, {770, 110, 18, 300}, scale, "modules");
-  draw_key(svg, {770, 440}, "#000000", "none");
+  draw_scale(svg, {780, 80, 18, 280}, scale, "modules");
+  draw_key(svg, {780, 385}, "#000000", "none");
   const int darkest = report.least_covering();
   svg.text(
-      {410, 640},
+      {410, axes.bottom_px() + 66},
       fmt::format("Modules light {:.2f} % of the screen in the mean, module {} the least, {:.2f} %; {:.2f} % is lit "
                   "by any.",
                   100 * report.all.coverage, darkest, 100 * report.modules[static_cast<std::size_t>(darkest)].coverage,
@@ -64,28 +66,33 @@ std::string condition(const DisplayCalibration& display, const CalibrationReport
   const std::pair<double, std::string> slices[] = {{-depth, fmt::format("{:.3g} m behind the screen", depth)},
                                                    {0, "on the screen"},
                                                    {depth, fmt::format("{:.3g} m before the screen", depth)}};
+  const Range x = across(display.screen.width_m), y = across(display.screen.height_m);
   std::vector<Field> fields;
+  std::vector<Axes> axes;
   std::vector<double> all;
   for (const auto& [distance, name] : slices) {
+    const Box box{80 + 390.0 * static_cast<double>(axes.size()), 90, 310, 310};
+    axes.emplace_back(with_equal_scales(box, x, y), x, y);
     fields.push_back(condition_field(display, module, distance));
     all.insert(all.end(), fields.back().value.begin(), fields.back().value.end());
   }
   const ColourScale scale = scale_for(all);
-  Svg svg(1340, 470);
+  const double bottom = axes.front().bottom_px();
+  Svg svg(1340, std::max(bottom + 110, 390.0));
   svg.text({610, 30}, fmt::format("{}, module {}: condition number of d(image)/d(physical)", display.name, module),
            {.size_px = 16, .anchor = Anchor::kMiddle, .is_bold = true});
-  const Range x = across(display.screen.width_m), y = across(display.screen.height_m);
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const Box box{80 + 390.0 * static_cast<double>(i), 80, 310, 280};
-    const Axes axes(with_equal_scales(box, x, y), x, y);
-    svg.rectangle(axes.box(), {.fill = "#d9d9d9"});
-    draw_field(svg, axes, fields[i], scale);
-    axes.draw(svg, {slices[i].second, "s, m", "y, m"});
-    svg.text({box.x + box.width / 2, 420}, spread_text(fields[i].value), {.size_px = 11, .anchor = Anchor::kMiddle});
+    svg.rectangle(axes[i].box(), {.fill = "#d9d9d9"});
+    draw_field(svg, axes[i], fields[i], scale);
+    axes[i].draw(svg, {slices[i].second, "s, m", "y, m"});
+    svg.text({axes[i].box().x + axes[i].box().width / 2, bottom + 60}, spread_text(fields[i].value),
+             {.size_px = 11, .anchor = Anchor::kMiddle});
   }
-  draw_scale(svg, {1230, 90, 18, 250}, scale, scale.is_logarithmic ? "condition (log)" : "condition");
-  draw_key(svg, {1230, 365}, "#d9d9d9", "no image");
-  svg.text({610, 450}, "1: all directions are stretched alike; large: a small step in space moves the image far.",
+  draw_scale(svg, {1235, 90, 18, 230}, scale, scale.is_logarithmic ? "condition (log)" : "condition");
+  svg.text({1235, 340}, "brightest: and more", {.size_px = 10});
+  draw_key(svg, {1235, 355}, "#d9d9d9", "no image");
+  svg.text({610, bottom + 88},
+           "1: all directions are stretched alike; large: a small step in space moves the image far.",
            {.size_px = 11, .anchor = Anchor::kMiddle});
   return svg.finish();
 }

@@ -102,7 +102,9 @@ void Svg::begin_clip(const Box& box) {
   ++clips_;
 }
 
-void Svg::end_clip() { body_ += "</g>\n"; }
+void Svg::begin_crisp() { body_ += "<g shape-rendering=\"crispEdges\">\n"; }
+
+void Svg::end_group() { body_ += "</g>\n"; }
 
 std::string Svg::finish() const {
   return fmt::format(

@@ -48,9 +48,10 @@ class Svg {
   void arrow(Place from, Place to, const std::string& colour);
   void text(Place at, std::string_view text, const TextStyle& style);
 
-  // What is drawn between the two is seen inside the box only.
+  // Until end_group: what is drawn is seen inside the box only; edges are not smoothed, so that neighbours join.
   void begin_clip(const Box& box);
-  void end_clip();
+  void begin_crisp();
+  void end_group();
 
   // The whole file.
   std::string finish() const;
