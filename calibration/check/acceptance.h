@@ -24,8 +24,8 @@ struct AcceptanceLimits {
 // accepted".
 std::vector<std::string> missed_limits(const CalibrationReport& report, const AcceptanceLimits& limits);
 
-// A quick check (kQuickSampling) against the default limits; an error says all that are missed. It looks at fewer points
-// than `lfd-calibrate check` does, but at every cell of a grid.
+// A quick check (kQuickSampling) against the default limits; an error says all that are missed. It looks at fewer
+// points than `lfd-calibrate check` does, but at every cell of a grid.
 Status accept_calibration(const DisplayCalibration& display);
 
 }  // namespace lfd

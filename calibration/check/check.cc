@@ -9,6 +9,8 @@
 namespace lfd {
 namespace {
 
+constexpr double kWidest_rad = 3;  // just less than a half circle
+
 int index_of(std::vector<MapNumbers>::const_iterator found, const std::vector<MapNumbers>& modules) {
   return static_cast<int>(found - modules.begin());
 }
@@ -25,8 +27,8 @@ void add_means(CalibrationReport& report) {
 
 std::optional<DepthBudget> budget_of(const DisplayCalibration& display, const CalibrationReport& report) {
   if (!(report.pixel_width_m > 0)) return std::nullopt;
-  const double angle =
-      report.angles.from_centre ? report.angles.from_centre->median_rad : display.angular_scattering_rad / 1.5;
+  const double angle = report.angles.from_centre ? report.angles.from_centre->median_rad
+                                                 : std::min(display.angular_scattering_rad / 1.5, kWidest_rad);
   return depth_budget(report.pixel_width_m, angle, display.optics.observer_distance_m / 2);
 }
 

@@ -20,7 +20,7 @@ inline constexpr CheckSampling kThoroughSampling{};
 // Some 1600 evaluations of the map per module.
 inline constexpr CheckSampling kQuickSampling{12, 9, 17, 13, 5};
 
-// Of one module, or of all together.
+// Of one module, or of all together. 0 where there was nothing to measure.
 struct MapNumbers {
   // Distance between a point of the image and image_from_screen(screen_from_image(point)), over all points that are on
   // the screen; infinite where there is no way back. 999: the 99.9 % quantile.

@@ -1,6 +1,7 @@
 // Central differences of the maps.
 #include "calibration/check/derivatives.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -10,7 +11,7 @@
 namespace lfd {
 namespace {
 
-constexpr double kStep = 1e-6;  // as a share of the screen's size: rounding and curvature both stay below 1e-9
+constexpr double kStep = 1e-6;  // as a share of the lengths at hand: rounding and curvature both stay below 1e-9
 
 template <class M>
 double frobenius(const M& m) {
@@ -60,7 +61,7 @@ std::optional<glm::dmat2> derivative_by_screen(const DisplayCalibration& display
 std::optional<glm::dmat3> derivative_by_physical(const DisplayCalibration& display, const ModuleCalibration& module,
                                                  Point3<Physical> p) {
   glm::dmat3 derivative;
-  const double step = kStep * display.screen.width_m;
+  const double step = kStep * std::min({display.screen.width_m, -module.emitter.z, display.optics.observer_distance_m});
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 d(0.0);
     d[axis] = step;

@@ -18,7 +18,8 @@ int wanted_ticks(double length_px) { return std::clamp(static_cast<int>(length_p
 
 std::vector<double> ticks_in(Range range, int wanted) {
   const double low = std::min(range.from, range.to), high = std::max(range.from, range.to);
-  if (!(high > low) || !std::isfinite(high - low)) return {};
+  // Where the range is but rounding, numbers cannot be told apart.
+  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high))) || !std::isfinite(high - low)) return {};
   const double raw = (high - low) / wanted, decade = std::pow(10, std::floor(std::log10(raw)));
   const double share = raw / decade, step = decade * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
   std::vector<double> ticks;

@@ -44,8 +44,10 @@ Outline observer_outline(const DisplayCalibration& display) {
   if (!display.optics.observer_arc) return {{left, vz}, {right, vz}};
   Outline outline;
   const double radius = display.optics.screen_radius_m + vz;
+  const auto arc_length = [radius](double x) { return radius * std::asin(std::clamp(x / radius, -1.0, 1.0)); };
+  const double first = arc_length(left), last = arc_length(right);
   for (int i = 0; i <= 64; ++i) {
-    const glm::dvec2 p = CurvedScreen(radius).point_at(left + (right - left) * i / 64.0);
+    const glm::dvec2 p = CurvedScreen(radius).point_at(first + (last - first) * i / 64.0);
     outline.push_back({p.x, p.y + vz});
   }
   return outline;
