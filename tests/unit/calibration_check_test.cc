@@ -176,6 +176,32 @@ TEST(Check, CurvedScreensHaveAnglesConditionsAndCoverage) {
   }
 }
 
+TEST(Check, ExtremeDisplaysHaveFiniteAngles) {
+  for (const double emitter_z : {-1e-6, -1e6}) {
+    for (const ImageSize image : {ImageSize{1, 1}, ImageSize{8192, 8192}}) {
+      DisplayCalibration display = one_module();
+      display.image = image;
+      display.angular_scattering_rad = 100;
+      display.modules = {{{0.2, 0, emitter_z}, IdealMap{}}, {{0.3, 0, emitter_z}, IdealMap{}}};
+      ASSERT_TRUE(validate(display));
+      const auto report = check_calibration(display, default_half_depth_m(display), kQuickSampling);
+      EXPECT_GE(report.all.condition_median, 1 - 1e-6);  // differences
+      EXPECT_LT(report.all.round_trip_max_px, 1e-8);
+      EXPECT_TRUE(std::isfinite(report.angles.from_centre->median_rad));
+      EXPECT_GT(report.depth->doubled_at_m, 0);
+    }
+  }
+}
+
+TEST(Check, AGridThatMirrorsIsRefused) {
+  const auto report = checked(grid_of(16, 8, [](GridNodes& nodes) {
+    for (ScreenPoint& s : nodes.node) s.x = -s.x;
+  }));
+  EXPECT_EQ(report.all.mirrored, 1);
+  EXPECT_EQ(report.all.folded, 0);  // against itself it has not
+  EXPECT_THAT(missed_limits(report, {}), ElementsAre(HasSubstr("mirrored")));
+}
+
 TEST(CheckAngles, SpacingIsThatOfArithmetic) {
   DisplayCalibration display = one_module();
   display.modules.clear();
