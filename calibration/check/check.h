@@ -17,7 +17,7 @@ struct CheckSampling {
   int box_points = 9;  // along each axis
 };
 inline constexpr CheckSampling kThoroughSampling{};
-// Some 1600 evaluations of the map per module.
+// Some 1600 evaluations of the map per module: 64 measured grids take about 0.15 s on one core.
 inline constexpr CheckSampling kQuickSampling{12, 9, 17, 13, 5};
 
 // Of one module, or of all together. 0 where there was nothing to measure.
