@@ -39,6 +39,7 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   add_option(command, "--log-level", options.log_level);
   if (!options.images.empty()) add_option(command, "--sink", "display");
   if (options.no_ao) command.push_back("--no-ao");
+  if (options.accept_calibration) command.push_back("--accept-calibration");
   if (options.idle) command.push_back("--idle");
   return command;
 }

@@ -23,8 +23,9 @@ struct ClusterOptions {
   std::string plan;                  // "everything", "needed" or empty
   std::vector<std::string> modules;  // numbers and ranges of those that are drawn at all; empty: all
   bool no_ao = false;
-  bool idle = false;             // no frame until frames are asked for
-  std::filesystem::path images;  // where the display writes every frame; empty: nowhere
+  bool accept_calibration = false;  // even where it misses the limits of `lfd-calibrate check`
+  bool idle = false;                // no frame until frames are asked for
+  std::filesystem::path images;     // where the display writes every frame; empty: nowhere
   std::string log_level = "info";
   bool quiet = false;  // the lines of the children are not printed, only kept
 };

@@ -14,7 +14,7 @@ void add_view_command(CLI::App& app, int& exit_code);
 void add_ctl_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 
-// DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --module, --log-level.
+// DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --accept-calibration, --module, --log-level.
 void add_cluster_options(CLI::App& command, ClusterOptions& options);
 
 // Does what needs a cluster, and answers the exit code. What the options ask and cannot be is found before anything

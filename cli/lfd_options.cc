@@ -31,6 +31,8 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
                   "deployment's")
       ->check(CLI::IsMember({"everything", "needed"}));
   command.add_flag("--no-ao", options.no_ao, "Without ambient occlusion");
+  command.add_flag("--accept-calibration", options.accept_calibration,
+                   "Show the display even where its calibration misses the limits of `lfd-calibrate check`");
   command.add_option("--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)")
       ->delimiter(',');
   add_log_level(command, options.log_level)->description("Of all processes: trace, debug, info, warn, error or off");

@@ -5,6 +5,7 @@
 #include "base/command_line.h"
 #include "base/log.h"
 #include "base/signals.h"
+#include "calibration/check/acceptance.h"
 #include "controller/daemon/daemon.h"
 
 namespace lfd::controller {
@@ -16,6 +17,7 @@ struct Arguments {
   std::vector<double> roi;
   std::string plan, sink;
   bool no_ao = false;
+  bool accept_calibration = false;
   bool print_endpoint = false;
   std::string log_level = "info";
   Daemon::Options options;
@@ -36,6 +38,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--sink", a.sink, "Where finished images go: display, files or none, instead of the deployment's")
       ->check(CLI::IsMember({"display", "files", "none"}));
   app.add_flag("--no-ao", a.no_ao, "Without ambient occlusion");
+  app.add_flag("--accept-calibration", a.accept_calibration,
+               "Show the display even where its calibration misses the limits of `lfd-calibrate check`");
   app.add_option("--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)")
       ->delimiter(',');
   app.add_flag("--idle", a.options.idle, "Draw no frame until a client asks for frames");
@@ -49,11 +53,25 @@ void set_vector(proto::Vector& to, double x, double y, double z) {
   to.set_z(z);
 }
 
+// Refuses a calibration that misses the limits, unless it is to be accepted all the same; then it warns.
+Status judge_calibration(const Arguments& a, const Deployment& deployment) {
+  const Status judged = accept_calibration(deployment.display);
+  if (judged) return {};
+  const Error refused = judged.error().within(deployment.display_file.string());
+  if (a.accept_calibration || deployment.message.accept_calibration()) {
+    log::warn("{}; it is shown all the same", refused.message());
+    return {};
+  }
+  return Error(refused.message() +
+               "; `lfd-calibrate check` says more, --accept-calibration shows the display all the same");
+}
+
 Result<Deployment> read_deployment(const Arguments& a) {
   DeploymentOverrides overrides;
   if (!a.display.empty()) overrides.display = a.display;
   if (!a.scene.empty()) overrides.scene = a.scene;
   LFD_TRY(Deployment deployment, load_deployment(a.deployment, overrides));
+  LFD_TRY_STATUS(judge_calibration(a, deployment));
   if (!a.roi.empty()) {
     proto::RegionOfInterest& roi = *deployment.message.mutable_roi();
     roi.Clear();

@@ -8,7 +8,10 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+
+#include "tests/harness/workbench.h"
 
 namespace lfd {
 namespace {
@@ -81,9 +84,14 @@ TEST(LfdCalibrate, WrongUseSaysWhatWasMeant) {
 
 TEST(LfdCalibrate, ChecksAndRefuses) {
   EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
-  const Answer strict = calibrate("check " + kDesk + " --coverage 1.5");
+  const Answer strict = calibrate("check " + kDesk + " --min-coverage 1.5");
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_THAT(strict.text, HasSubstr("missed: coverage"));
+  EXPECT_THAT(strict.text, HasSubstr("verdict               refused"));
+  EXPECT_EQ(calibrate("check " + kDesk + " --max-condition 1.01").exit_code, 1);
+  EXPECT_EQ(calibrate("check " + kDesk + " --max-round-trip-px 1e-20 --max-condition 1").exit_code, 1);
+  EXPECT_EQ(calibrate("check " + kDesk + " --max-mirrored nonsense").exit_code, 2);
+  EXPECT_EQ(calibrate("check " + kDesk + " --plot x --module 8").exit_code, 2);
   EXPECT_EQ(calibrate("check /no/such/file").exit_code, 1);
 }
 
@@ -103,6 +111,45 @@ TEST(LfdCalibrate, ExportsAndImportsMpcdi) {
   EXPECT_EQ(calibrate("export " + kDesk + " --out " + folder + "/desk.zip").exit_code, 2);
   EXPECT_EQ(calibrate("import " + archive + " --grids csv").exit_code, 2);
   std::filesystem::remove_all(folder);
+}
+
+TEST(LfdCalibrate, NamesEveryMissedLimitOnALineOfItsOwn) {
+  const Answer answer = calibrate("check " + kDesk + " --min-coverage 1.5 --max-condition 1");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.text, HasSubstr("\nmissed: condition number: "));
+  EXPECT_THAT(answer.text, HasSubstr("\nmissed: coverage: 1 of the screen (module 0); at least 1.5 is accepted\n"));
+}
+
+TEST(LfdCalibrate, TellsProgramsEverythingAsJson) {
+  const Answer answer = calibrate("check " + kDesk + " --json --min-coverage 1.5 2>/dev/null; exit $?");
+  EXPECT_EQ(answer.exit_code, 1);
+  const auto json = nlohmann::json::parse(answer.text, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << answer.text;
+  for (const char* const key : {"version", "display", "accepted", "missed", "limits", "half_depth_m", "all",
+                                "worst_module", "coverage_any", "pixel_width_m", "angles", "depth", "modules"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["accepted"], false);
+  EXPECT_EQ(json["missed"].size(), 1u);
+  EXPECT_EQ(json["modules"].size(), 8u);
+  for (const char* const key : {"round_trip_median_px", "round_trip_999_px", "round_trip_max_px", "image_on_screen",
+                                "image_unmapped", "mirrored", "near_singular", "folded", "incomplete",
+                                "condition_median", "condition_99", "condition_max", "coverage"}) {
+    EXPECT_TRUE(json["all"].contains(key) && json["modules"][7].contains(key)) << key;
+  }
+  EXPECT_EQ(json["all"]["coverage"], 1.0);
+  EXPECT_EQ(json["angles"]["order"], "left_to_right");
+  EXPECT_EQ(json["depth"]["spots"][0]["distance_m"], 0.0);
+}
+
+TEST(LfdCalibrate, WritesPicturesOfTheCheck) {
+  const harness::Workbench bench;
+  const std::string folder = (bench.folder() / "plots").string();
+  EXPECT_EQ(calibrate("check " + kDesk + " --plot " + folder + " --module 3").exit_code, 0);
+  for (const char* const file : {"overview.svg", "coverage.svg", "warp-module-003.svg", "condition-module-003.svg",
+                                 "round-trip-module-003.svg"}) {
+    EXPECT_TRUE(std::filesystem::exists(bench.folder() / "plots" / file)) << file;
+  }
 }
 
 }  // namespace

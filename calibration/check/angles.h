@@ -1,0 +1,48 @@
+// The directions from which light reaches the screen: how evenly the emitters divide the field of view.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibration/display.h"
+
+namespace lfd {
+
+// Horizontal angles between neighbouring emitters, radians.
+struct AngularSpacing {
+  double min_rad = 0, median_rad = 0, max_rad = 0;
+};
+
+// Neighbouring modules that stand more than twice the median apart.
+struct AngularGap {
+  int left_module = 0, right_module = 0;
+  double angle_rad = 0;
+};
+
+enum class ModuleOrder { kLeftToRight, kRightToLeft, kMixed };
+
+struct AngularReport {
+  // Seen from the middle of the screen and of its left and right border. Emitters in one direction (1e-9 rad) count as
+  // one; absent where there are fewer than two directions.
+  std::optional<AngularSpacing> from_centre, from_left, from_right;
+  ModuleOrder order = ModuleOrder::kLeftToRight;  // of the file's modules, as a viewer sees their emitters
+  std::vector<AngularGap> gaps;                   // seen from the centre, left to right
+  // The calibration's angular scattering, and that over the rule of thumb (calibration/make.h); absent where the rule
+  // does not apply.
+  double scattering_rad = 0;
+  std::optional<double> scattering_over_rule;
+};
+
+// `display` is valid.
+AngularReport check_angles(const DisplayCalibration& display);
+
+// The direction of a module's emitter from a point: 0 straight behind it, positive to the right.
+struct EmitterDirection {
+  int module = 0;
+  double angle_rad = 0;
+};
+
+// Seen from a point of the screen, left to right; one of those that agree within 1e-9 rad.
+std::vector<EmitterDirection> emitter_directions(const DisplayCalibration& display, ScreenPoint s);
+
+}  // namespace lfd

@@ -1,0 +1,250 @@
+// The numbers of a check against displays whose answers are known, and which of them are refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "calibration/check/acceptance.h"
+#include "calibration/check/derivatives.h"
+#include "calibration/make.h"
+
+namespace lfd {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+DisplayCalibration one_module() {
+  DisplayCalibration display;
+  display.screen = {2, 1};
+  display.image = {200, 100};
+  display.optics = {Diffuser::kLinear, 0.5, 4};
+  display.angular_scattering_rad = 0.1;
+  display.modules = {{{0.2, -0.3, -2}, IdealMap{}}};
+  return display;
+}
+
+// The ideal map of that display as a grid of so many cells, its nodes moved or taken away by `change`.
+GridMap grid_of(
+    int columns, int rows, const std::function<void(GridNodes&)>& change = [](GridNodes&) {}) {
+  GridNodes nodes{columns + 1, rows + 1, 0, 0, 200.0 / columns, 100.0 / rows, {}};
+  for (int row = 0; row <= rows; ++row) {
+    for (int column = 0; column <= columns; ++column) {
+      nodes.node.push_back({2.0 * column / columns - 1, 0.5 - 1.0 * row / rows});
+    }
+  }
+  change(nodes);
+  auto map = GridMap::make(std::move(nodes));
+  EXPECT_TRUE(map) << map.error().message();
+  return *map;
+}
+
+ScreenPoint& node(GridNodes& nodes, int column, int row) {
+  return nodes.node[static_cast<std::size_t>(row * nodes.columns + column)];
+}
+
+constexpr ScreenPoint kHole{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
+CalibrationReport checked(const ScreenMap& map) {
+  DisplayCalibration display = one_module();
+  display.modules[0].map = map;
+  return check_calibration(display, 0.2);
+}
+
+TEST(Check, TheIdealDisplayHasIdealNumbers) {
+  const auto report = check_calibration(*make_display("640rc", 5), 0.2);
+  EXPECT_LT(report.all.round_trip_max_px, 1e-9);
+  EXPECT_EQ(report.all.image_on_screen, 1);
+  EXPECT_EQ(report.all.image_unmapped, 0);
+  EXPECT_EQ(report.all.mirrored, 0);
+  EXPECT_EQ(report.all.near_singular, 0);
+  EXPECT_EQ(report.all.coverage, 1);
+  EXPECT_EQ(report.coverage_any, 1);
+  EXPECT_THAT(report.lit_by, testing::Each(5));
+  EXPECT_NEAR(report.pixel_width_m, 1.59 / 1024, 1e-9);  // by differences over a millionth of the screen
+}
+
+TEST(Check, AcceptsWhatTheToolMakes) {
+  for (const char* name : {"desk", "c80-conical"}) {
+    for (const DisplayCalibration& display : {*make_display(name, 6), perturbed(*make_display(name, 6), 9)}) {
+      const auto report = check_calibration(display, default_half_depth_m(display));
+      EXPECT_THAT(missed_limits(report, {}), IsEmpty()) << display.name;
+      EXPECT_TRUE(accept_calibration(display)) << display.name;
+    }
+  }
+}
+
+TEST(Check, FindsMirroredFlatAndMissingMaps) {
+  EXPECT_EQ(checked(HomographyMap{glm::dmat3({-100, 0, 0}, {0, -100, 0}, {100, 50, 1})}).all.mirrored, 1);
+  const auto flat = checked(HomographyMap{glm::dmat3({100, 0, 0}, {0, -1e6, 0}, {100, 50, 1})});
+  EXPECT_EQ(flat.all.near_singular, 1);
+  EXPECT_EQ(flat.all.mirrored, 0);
+  EXPECT_GT(flat.all.condition_max, 1e3);
+  // The image shows the middle half of the screen's width: half the image is lost, half the screen is dark.
+  const auto narrow = checked(HomographyMap{glm::dmat3({200, 0, 0}, {0, -100, 0}, {100, 50, 1})});
+  EXPECT_NEAR(narrow.modules[0].coverage, 0.5, 0.02);  // 65 columns of samples
+  EXPECT_THAT(missed_limits(narrow, {}), ElementsAre(HasSubstr("coverage")));
+  const auto wide = checked(HomographyMap{glm::dmat3({50, 0, 0}, {0, -100, 0}, {100, 50, 1})});
+  EXPECT_NEAR(wide.all.image_on_screen, 0.5, 0.02);  // 48 columns of samples
+  EXPECT_EQ(wide.all.image_unmapped, 0);
+  EXPECT_EQ(wide.modules[0].coverage, 1);
+  EXPECT_NEAR(wide.pixel_width_m, 0.02, 1e-9);
+}
+
+TEST(Check, NamesTheModuleThatIsWorst) {
+  DisplayCalibration display = *make_display("desk", 6);
+  display.modules[4].map = HomographyMap{glm::dmat3({-640, 0, 0}, {0, -640, 0}, {128, 96, 1})};
+  const auto report = check_calibration(display, 0.05);
+  EXPECT_EQ(report.worst_by(&MapNumbers::mirrored), 4);
+  EXPECT_NEAR(report.all.mirrored, 1.0 / 6, 1e-12);
+  EXPECT_THAT(missed_limits(report, {}), ElementsAre(HasSubstr("mirrored share of the image: 1 (module 4)")));
+  const Status accepted = accept_calibration(display);
+  ASSERT_FALSE(accepted);
+  EXPECT_THAT(accepted.error().message(), HasSubstr("mirrored share of the image: 1 (module 4)"));
+}
+
+TEST(Check, ConditionOfTheLinearDisplayIsThatOfItsShear) {
+  const DisplayCalibration display = one_module();
+  const ModuleCalibration& module = display.modules[0];
+  // Straight before the emitter at the observer's height nothing is sheared; 0.001 m below it hardly anything.
+  EXPECT_NEAR(*condition_at(display, module, {0.2, 0.499, 0}), 1, 1e-7);
+  for (const Point3<Physical> p : {Point3<Physical>{0.9, -0.4, 0}, Point3<Physical>{-0.7, 0.2, 0}}) {
+    const double shear = std::pow((p.x - 0.2) / 2, 2) + std::pow((p.y - 0.5) / 4, 2);
+    EXPECT_NEAR(*condition_at(display, module, p), (3 + shear) / 3, 1e-8);
+  }
+  const auto report = check_calibration(display, 1e-9);
+  const double worst_corner = std::pow(1.2 / 2, 2) + std::pow(1.0 / 4, 2);
+  EXPECT_LT(report.all.condition_max, (3 + worst_corner) / 3 + 1e-3);
+  EXPECT_GT(report.all.condition_max, 1.05);
+  EXPECT_LE(report.all.condition_median, report.all.condition_99);
+  EXPECT_LE(report.all.condition_99, report.all.condition_max);
+}
+
+TEST(Check, AHoleOfKnownAreaIsMissingFromImageAndScreen) {
+  // Without four nodes of a row 5 x 2 of 40 x 20 cells are missing.
+  const auto report = checked(grid_of(40, 20, [](GridNodes& nodes) {
+    for (int column = 10; column < 14; ++column) node(nodes, column, 10) = kHole;
+  }));
+  const double hole = 10.0 / 800;
+  EXPECT_NEAR(report.modules[0].incomplete, hole, 1e-12);
+  EXPECT_NEAR(report.modules[0].image_unmapped, hole, 0.005);  // 1728 samples of an area whose border is 5 % of it
+  EXPECT_NEAR(report.modules[0].coverage, 1 - hole, 0.005);
+  EXPECT_EQ(report.modules[0].folded, 0);
+  EXPECT_THAT(missed_limits(report, {}), IsEmpty());
+  AcceptanceLimits strict;
+  strict.image_unmapped = 0.001;
+  EXPECT_THAT(missed_limits(report, strict), ElementsAre(HasSubstr("without a map")));
+}
+
+TEST(Check, AFoldedCornerIsRefused) {
+  // The outermost node is drawn over its neighbours: the corner's cell folds.
+  const GridMap folded = grid_of(16, 8, [](GridNodes& nodes) { node(nodes, 0, 0) = {-0.7, 0.2}; });
+  const auto report = checked(folded);
+  EXPECT_NEAR(report.modules[0].folded, 1.0 / 128, 1e-12);
+  EXPECT_THAT(missed_limits(report, {}), testing::Contains(HasSubstr("folded share of the grid")));
+  DisplayCalibration display = one_module();
+  display.modules[0].map = folded;
+  EXPECT_FALSE(accept_calibration(display));
+  display.modules[0].map = grid_of(16, 8);
+  EXPECT_TRUE(accept_calibration(display));
+}
+
+TEST(Check, CurvedScreensHaveAnglesConditionsAndCoverage) {
+  for (const double radius : {-4.0, 4.0}) {
+    for (const bool arc : {false, true}) {
+      DisplayCalibration display = one_module();
+      display.optics.observer_distance_m = 3;
+      display.optics.screen_radius_m = radius;
+      display.optics.observer_arc = arc;
+      display.modules.push_back({{-0.3, 0, -2}, grid_of(16, 8)});
+      ASSERT_TRUE(validate(display));
+      const auto report = check_calibration(display, 0.2);
+      EXPECT_EQ(report.all.coverage, 1);
+      EXPECT_GE(report.all.condition_median, 1);
+      EXPECT_LT(report.all.condition_max, 3);
+      EXPECT_THAT(missed_limits(report, {}), IsEmpty());
+      // On the screen at its middle, straight before the emitter: as on a planar one.
+      display.modules[0].emitter.x = 0;
+      EXPECT_NEAR(*condition_at(display, display.modules[0], {0, 0.4999, 0}), 1, 1e-3);
+      EXPECT_NEAR(point_before_screen(display.optics, {1, 0}, 0.1).x, (radius + 0.1) * std::sin(1 / radius), 1e-12);
+    }
+  }
+}
+
+TEST(Check, ExtremeDisplaysHaveFiniteAngles) {
+  for (const double emitter_z : {-1e-6, -1e6}) {
+    for (const ImageSize image : {ImageSize{1, 1}, ImageSize{8192, 8192}}) {
+      DisplayCalibration display = one_module();
+      display.image = image;
+      display.angular_scattering_rad = 100;
+      display.modules = {{{0.2, 0, emitter_z}, IdealMap{}}, {{0.3, 0, emitter_z}, IdealMap{}}};
+      ASSERT_TRUE(validate(display));
+      const auto report = check_calibration(display, default_half_depth_m(display), kQuickSampling);
+      EXPECT_GE(report.all.condition_median, 1 - 1e-6);  // differences
+      EXPECT_LT(report.all.round_trip_max_px, 1e-8);
+      EXPECT_TRUE(std::isfinite(report.angles.from_centre->median_rad));
+      EXPECT_GT(report.depth->doubled_at_m, 0);
+    }
+  }
+}
+
+TEST(Check, AGridThatMirrorsIsRefused) {
+  const auto report = checked(grid_of(16, 8, [](GridNodes& nodes) {
+    for (ScreenPoint& s : nodes.node) s.x = -s.x;
+  }));
+  EXPECT_EQ(report.all.mirrored, 1);
+  EXPECT_EQ(report.all.folded, 0);  // against itself it has not
+  EXPECT_THAT(missed_limits(report, {}), ElementsAre(HasSubstr("mirrored")));
+}
+
+TEST(CheckAngles, SpacingIsThatOfArithmetic) {
+  DisplayCalibration display = one_module();
+  display.modules.clear();
+  for (const double x : {-1.0, 0.0, 1.0}) display.modules.push_back({{x, 0, -1}, IdealMap{}});
+  display.angular_scattering_rad = 1.5 * std::numbers::pi / 4;
+  const AngularReport angles = check_angles(display);
+  EXPECT_NEAR(angles.from_centre->min_rad, std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(angles.from_centre->max_rad, std::numbers::pi / 4, 1e-12);
+  // From the left border at x = -1: straight behind, one to the right, two to the right.
+  EXPECT_NEAR(angles.from_left->max_rad, std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(angles.from_left->min_rad, std::atan(2) - std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(angles.from_right->min_rad, angles.from_left->min_rad, 1e-12);
+  EXPECT_NEAR(*angles.scattering_over_rule, 1, 1e-12);
+  EXPECT_EQ(angles.order, ModuleOrder::kLeftToRight);
+  EXPECT_THAT(angles.gaps, IsEmpty());
+}
+
+TEST(CheckAngles, GapsAndOrderAreNamed) {
+  DisplayCalibration display = *make_display("desk", 12);
+  display.modules.erase(display.modules.begin() + 4, display.modules.begin() + 6);
+  AngularReport angles = check_angles(display);
+  ASSERT_THAT(angles.gaps, SizeIs(1));
+  EXPECT_EQ(angles.gaps[0].left_module, 3);
+  EXPECT_EQ(angles.gaps[0].right_module, 4);
+  std::swap(display.modules[0], display.modules[1]);
+  EXPECT_EQ(check_angles(display).order, ModuleOrder::kMixed);
+  display = *make_display("desk");
+  std::ranges::reverse(display.modules);
+  EXPECT_EQ(check_angles(display).order, ModuleOrder::kRightToLeft);
+  EXPECT_FALSE(check_angles(one_module()).from_centre);
+  display.modules = {one_module().modules[0], one_module().modules[0]};  // one above the other
+  EXPECT_FALSE(check_angles(display).from_centre);
+}
+
+TEST(DepthBudget, DoublesWhereTheFormulaSays) {
+  const DepthBudget budget = depth_budget(0.001, 2 * std::atan(0.01), 1.5);
+  EXPECT_NEAR(budget.doubled_at_m, 0.05, 1e-15);
+  EXPECT_NEAR(budget.spot_m(0.05), 0.002, 1e-15);
+  EXPECT_NEAR(budget.spot_m(-0.5), 0.011, 1e-15);
+  ASSERT_THAT(budget.spots, SizeIs(7));  // 0, 0.02, 0.05, 0.1, 0.2, 0.5, 1
+  EXPECT_EQ(budget.spots.front().distance_m, 0);
+  EXPECT_NEAR(budget.spots.back().distance_m, 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace lfd
