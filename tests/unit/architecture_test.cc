@@ -58,6 +58,7 @@ const std::vector<Door>& doors() {
       {{"Imf", "Imath"}, {"proto/pictures/exr.cc"}},
       {{"yaml-cpp/"}, {"calibration/import/lfdisplay_yaml.cc"}},
       {{"nlohmann/"}, {"calibration/import/holovizio_json.cc", "cli/report.cc", "bench/frame/print_json.cc"}},
+      {{"ceres/", "Eigen/"}, {"calibration/fit/"}},
       {{"tiny_gltf.h"}, {"controller/scene/gltf/"}},
       {{"embree3/"}, {"bench/reference/intersector.cc"}},
       {{"epoxy/"}, {"rendernode/gl/"}},
