@@ -63,6 +63,9 @@ ResidualSummary summary_of(std::vector<double> distances) {
 struct FittedModule {
   ScreenMap map;
   std::vector<double> distances;  // of each observation, px
+  // Least robust standard deviation of the residuals, in sigmas: a supple field follows the noise, and what is held out
+  // of it tells more.
+  double least_scale = 0;
   ModuleFit fit;
 };
 
@@ -70,7 +73,7 @@ struct FittedModule {
 FittedModule fit_map(const FittedPinhole& fitted, const ModuleObservations& points, ImageSize image,
                      bool residual_grids) {
   const std::vector<ResidualSample> samples = samples_of(fitted, points);
-  FittedModule module{fitted.family.at(fitted.z), {}, {}};
+  FittedModule module{fitted.family.at(fitted.z), {}, 0, {}};
   for (const ResidualSample& sample : samples) module.distances.push_back(glm::length(sample.residual_px));
   if (!residual_grids) return module;
   const auto smoothed = smooth_residuals(image, samples);
@@ -83,6 +86,7 @@ FittedModule fit_map(const FittedPinhole& fitted, const ModuleObservations& poin
   if (!grid) return module;
   module.distances = grid_distances(*grid, smoothed->field, points, samples);
   module.map = *grid;
+  module.least_scale = smoothed->held_out_spread;
   module.fit.is_grid = true;
   return module;
 }
@@ -92,7 +96,8 @@ std::vector<Outlier> judge(FittedModule& module, const PinholeFamily& family, do
                            const ModuleObservations& points, bool sigmas_are_known) {
   std::vector<double> scaled;
   for (std::size_t i = 0; i < points.size(); ++i) scaled.push_back(module.distances[i] / points[i].sigma_px);
-  const double spread = robust_spread(scaled), scale = sigmas_are_known ? std::max(1.0, spread) : spread;
+  const double least = sigmas_are_known ? std::max(1.0, module.least_scale) : module.least_scale;
+  const double scale = std::max(least, robust_spread(std::move(scaled)));
   std::vector<Outlier> outliers;
   std::vector<double> before, after;
   for (std::size_t i = 0; i < points.size(); ++i) {

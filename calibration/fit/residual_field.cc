@@ -19,11 +19,12 @@ namespace {
 constexpr std::size_t kParts = 5;
 constexpr std::size_t kLeastSamples = 20;
 constexpr int kTrustRounds = 6;
+constexpr double kTrustWidth = 6;     // of Cauchy's loss, in robust standard deviations: corners bend most
 constexpr double kLeastWidth = 1e-9;  // of Cauchy's loss, in sigmas: residuals may be all 0
 constexpr double kFirstLambda = 0.01;
 constexpr double kDensity = 0.7;     // intervals along an axis for each sample along it
 constexpr double kFirstRung = 1e-4;  // of the ladder of lambdas, for one sample a control point
-constexpr int kRungs = 13;
+constexpr int kRungs = 10;
 constexpr double kRungRatio = 5;
 constexpr int kMostIntervals = 48;
 
@@ -74,25 +75,32 @@ ResidualField empty_field(ImageSize image, std::size_t samples) {
   return field;
 }
 
-// Sum of squares of second differences along columns, along rows, and (twice) along both: 0 for a bilinear field.
+// Sum of squares of third differences along columns, along rows, and (three times) along both: 0 for a field that is
+// quadratic, so that borders and corners are not flattened.
 Sparse roughness(const ResidualField& field) {
+  constexpr std::array<std::array<double, 4>, 4> kDifferences{{{1}, {-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}}};
   Triplets entries;
   int row = 0;
-  const auto add = [&](std::initializer_list<std::pair<int, double>> difference) {
-    for (const auto& [index, factor] : difference) entries.emplace_back(row, index, factor);
+  const auto add = [&](int column, int line, int along_columns, int along_rows, double factor) {
+    for (int j = 0; j <= along_rows; ++j) {
+      for (int i = 0; i <= along_columns; ++i) {
+        const double difference = kDifferences[static_cast<std::size_t>(along_columns)][static_cast<std::size_t>(i)] *
+                                  kDifferences[static_cast<std::size_t>(along_rows)][static_cast<std::size_t>(j)];
+        entries.emplace_back(row, (line + j) * field.columns + column + i, factor * difference);
+      }
+    }
     ++row;
   };
-  const int n = field.columns;
-  const double both = std::sqrt(2.0);
-  for (int j = 0; j < field.rows; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const int at = j * n + i;
-      if (i + 2 < n) add({{at, 1}, {at + 1, -2}, {at + 2, 1}});
-      if (j + 2 < field.rows) add({{at, 1}, {at + n, -2}, {at + 2 * n, 1}});
-      if (i + 1 < n && j + 1 < field.rows) add({{at, both}, {at + 1, -both}, {at + n, -both}, {at + n + 1, both}});
+  for (int line = 0; line < field.rows; ++line) {
+    for (int column = 0; column < field.columns; ++column) {
+      for (int along_rows = 0; along_rows <= 3; ++along_rows) {
+        const int along_columns = 3 - along_rows;
+        if (column + along_columns >= field.columns || line + along_rows >= field.rows) continue;
+        add(column, line, along_columns, along_rows, along_rows % 3 == 0 ? 1 : std::sqrt(3.0));
+      }
     }
   }
-  Sparse differences(row, n * field.rows);
+  Sparse differences(row, field.columns * field.rows);
   differences.setFromTriplets(entries.begin(), entries.end());
   return differences.transpose() * differences;
 }
@@ -126,7 +134,7 @@ class Smoother {
       const ResidualField field = solve(lambda, kParts);
       std::vector<double> distances(samples_.size());
       for (std::size_t i = 0; i < samples_.size(); ++i) distances[i] = std::sqrt(square(field, i));
-      const double width = std::max(kLossWidth * robust_spread(distances), kLeastWidth);
+      const double width = std::max(kTrustWidth * robust_spread(distances), kLeastWidth);
       for (std::size_t i = 0; i < samples_.size(); ++i) {
         trust_[i] = 1 / (1 + distances[i] * distances[i] / (width * width));
       }
@@ -134,39 +142,37 @@ class Smoother {
     }
   }
 
-  // First on every second rung of the ladder, then beside the best of these.
   double best_lambda() const {
-    int best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    const auto lambda_of = [](int rung) { return kFirstRung * std::pow(kRungRatio, rung); };
-    const auto try_rung = [&](int rung) {
-      const double sum = trusted_sum(held_out_squares(lambda_of(rung)));
-      if (!(sum < least)) return;
+    double best = 0, least = std::numeric_limits<double>::infinity();
+    double lambda = kFirstRung;
+    for (int rung = 0; rung < kRungs; ++rung, lambda *= kRungRatio) {
+      const std::vector<double> squares = held_out_squares(lambda);
+      const double sum = std::inner_product(trust_.begin(), trust_.end(), squares.begin(), 0.0);
+      if (!(sum < least)) continue;
       least = sum;
-      best = rung;
-    };
-    for (int rung = 0; rung < kRungs; rung += 2) try_rung(rung);
-    const int middle = best;
-    for (const int rung : {middle - 1, middle + 1}) {
-      if (rung >= 0 && rung < kRungs) try_rung(rung);
+      best = lambda;
     }
-    return lambda_of(best);
+    return best;
   }
 
   SmoothedResiduals compared(double lambda) const {
-    SmoothedResiduals result{solve(lambda, kParts), 0, 0, false};
+    SmoothedResiduals result;
+    result.field = solve(lambda, kParts);
     const std::vector<double> squares = held_out_squares(lambda);
+    std::vector<double> distances;
     double all = 0, gain = 0, gain_squares = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const double sigma2 = samples_[i].sigma_px * samples_[i].sigma_px;
       const double alone = glm::dot(samples_[i].residual_px, samples_[i].residual_px);
       const double by = trust_[i] * (alone / sigma2 - squares[i]);
+      distances.push_back(std::sqrt(squares[i]));
       all += trust_[i];
       gain += by;
       gain_squares += by * by;
       result.held_out_without_px += trust_[i] * alone;
       result.held_out_with_px += trust_[i] * squares[i] * sigma2;
     }
+    result.held_out_spread = robust_spread(std::move(distances));
     result.held_out_without_px = std::sqrt(result.held_out_without_px / all);
     result.held_out_with_px = std::sqrt(result.held_out_with_px / all);
     const double chance = std::sqrt(std::max(0.0, gain_squares - gain * gain / all));  // standard error of the sum
@@ -221,10 +227,6 @@ class Smoother {
       for (std::size_t i = part; i < samples_.size(); i += kParts) squares[i] = square(field, i);
     }
     return squares;
-  }
-
-  double trusted_sum(const std::vector<double>& squares) const {
-    return std::inner_product(squares.begin(), squares.end(), trust_.begin(), 0.0);
   }
 
   double square(const ResidualField& field, std::size_t i) const {

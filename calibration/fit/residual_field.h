@@ -25,6 +25,7 @@ struct SmoothedResiduals {
   ResidualField field;
   // Root mean square distance, over points that were held out of the smoothing, px, by Cauchy's weights.
   double held_out_without_px = 0, held_out_with_px = 0;
+  double held_out_spread = 0;  // with the field: robust standard deviation along an axis, in the samples' sigmas
   // Whether the field explains held-out points better, by more than chance (3 standard errors) and by 1 %.
   bool is_better = false;
 };
@@ -36,7 +37,7 @@ struct ResidualSample {
 };
 
 // The spline with the least sum of Cauchy's loss of the differences, scaled by sigma and by their robust spread, plus
-// lambda times the squared second differences of its control points; of a ladder of lambdas the one with the least
+// lambda times the squared third differences of its control points; of a ladder of lambdas the one with the least
 // residuals held out in five parts. The order of the samples decides the parts: every fifth belongs together. Absent
 // for fewer than 20 samples.
 std::optional<SmoothedResiduals> smooth_residuals(ImageSize image, std::span<const ResidualSample> samples);
