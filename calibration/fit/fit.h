@@ -1,0 +1,69 @@
+// A display's calibration from observations: pinholes and the screen at once, then residual grids.
+//
+// What the observations fix, and what they cannot. (s, y) are measured on the screen, so they are the screen's
+// coordinates: the camera's frame needs no parameters. A similarity of it, applied to all emitters as well, changes no
+// image; on a planar screen any affine change can be taken up by the modules' own poses and focal lengths, so it cannot
+// be observed either. The one thing about the screen that observations tell is the curvature of a curved one: it is
+// common to all modules, and fitted (its logarithm, standard deviation 0.2 about the start's). A planar screen stays
+// planar. Of each pinhole a plane determines eight combinations well, its lens about five more; two (roughly: how far
+// the projector stands, and where along its axis) only through the lens. Priors about the start decide these: standard
+// deviations in pinhole_family.h. They pull on everything else by far less than the observations' noise.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/display.h"
+#include "calibration/fit/observations.h"
+
+namespace lfd {
+
+struct FitOptions {
+  // Standard deviation of the start's emitters along each axis, m; absent: 0.5 % of their distance from the screen.
+  std::optional<double> emitter_sd_m;
+  bool residual_grids = true;  // false: all modules stay pinholes
+};
+
+// Distances in the image between where observed screen points are seen and where the map says, px; outliers left out.
+struct ResidualSummary {
+  double median_px = 0, quantile_99_px = 0, max_px = 0;
+};
+
+struct ModuleFit {
+  std::size_t observations = 0, outliers = 0;
+  ResidualSummary before;  // of the start, as a pinhole
+  ResidualSummary after;
+  double noise_px = 0;  // robust standard deviation of the residuals after, along each axis
+  bool is_grid = false;
+  // Root mean square of residuals held out of the smoothing: of the pinhole, and with the residual field. Absent where
+  // there are too few observations to tell, and where no grid was asked for.
+  std::optional<double> held_out_pinhole_px, held_out_field_px;
+  std::vector<std::string> held_by_start;  // parameters about which the start says more than the observations
+};
+
+struct Outlier {
+  int module = 0;
+  std::size_t line = 0;  // of the observations' file
+  double residual_px = 0;
+  bool operator==(const Outlier&) const = default;
+};
+
+struct FittedDisplay {
+  DisplayCalibration display;  // of the start's name, screen and optics, but for the fitted radius
+  std::vector<ModuleFit> modules;
+  std::vector<Outlier> outliers;  // ascending by line
+  double radius_sd_m = 0;         // of a curved screen's radius; 0: planar
+};
+
+// An observation is an outlier beyond so many standard deviations (normal errors get there once in 10^7), and never
+// below kLeastOutlier_px.
+inline constexpr double kOutlierSigmas = 6;
+inline constexpr double kLeastOutlier_px = 0.01;
+
+// The order of the observations makes no difference. Errors begin with the observations' source, and name line or
+// module: those of observations_by_module() and determined_by(), a start that cannot see what was observed.
+Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observations& observations,
+                                  const FitOptions& options = {});
+
+}  // namespace lfd

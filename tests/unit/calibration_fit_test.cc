@@ -1,0 +1,319 @@
+// Fitting calibrations to observations: the truth is recovered from what was simulated of it, and bad input is refused.
+#include "calibration/fit/fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "base/log.h"
+#include "calibration/fit/simulate.h"
+#include "calibration/make.h"
+
+namespace lfd {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kNoise_px = 0.1;
+constexpr int kModules = 3;
+
+// Few points for each module, so that the tests are short and the task is not too easy.
+SimulationOptions few_points() {
+  SimulationOptions options;
+  options.noise_px = kNoise_px;
+  options.outliers = 0;
+  options.missing = 0;
+  options.points_u = 20;
+  options.points_v = 15;
+  return options;
+}
+
+// Error of a fitted map in the image, px, over an even raster of held-out points (no point of the simulation is one).
+// Points of the image that the truth shows on the screen must be answered; the border within 3 px may be beside the
+// fitted screen or image by the error alone.
+struct MapError {
+  double root_mean_square_px = 0, quantile_99_px = 0, max_px = 0;
+};
+
+MapError map_error(const DisplayCalibration& truth, const DisplayCalibration& fitted) {
+  MapError error;
+  double squares = 0;
+  std::vector<double> distances;
+  for (std::size_t k = 0; k < truth.modules.size(); ++k) {
+    for (double v = 3; v < truth.image.height - 3; v += 6.1) {
+      for (double u = 3; u < truth.image.width - 3; u += 6.1) {
+        const auto s = screen_from_image(truth, truth.modules[k], {u, v});
+        if (!s) continue;
+        const auto p = image_from_screen(fitted, fitted.modules[k], *s);
+        EXPECT_TRUE(p) << "module " << k << " at " << u << " " << v;
+        if (!p) continue;
+        const double distance = std::hypot(p->x - u, p->y - v);
+        squares += distance * distance;
+        distances.push_back(distance);
+      }
+    }
+  }
+  std::ranges::sort(distances);
+  error.root_mean_square_px = std::sqrt(squares / static_cast<double>(distances.size()));
+  error.quantile_99_px = distances[distances.size() * 99 / 100];
+  error.max_px = distances.back();
+  return error;
+}
+
+// The bound, also for the point that is recovered worst.
+void expect_recovered(const DisplayCalibration& truth, const FittedDisplay& fitted) {
+  const MapError error = map_error(truth, fitted.display);
+  EXPECT_LE(error.max_px, 1.5 * kNoise_px);
+  // 15 parameters from 600 numbers: sqrt(15 / 600) of the noise along each axis, were all as well known.
+  EXPECT_LE(error.root_mean_square_px, 0.4 * kNoise_px);
+}
+
+std::vector<std::size_t> lines_of(const std::vector<Outlier>& outliers) {
+  std::vector<std::size_t> lines;
+  for (const Outlier& outlier : outliers) lines.push_back(outlier.line);
+  return lines;
+}
+
+std::vector<std::size_t> outlier_lines(const SimulatedObservations& simulated) {
+  std::vector<std::size_t> lines;
+  for (const std::size_t i : simulated.outliers) lines.push_back(simulated.observations.points[i].line);
+  return lines;
+}
+
+class FitOfPinholes : public testing::TestWithParam<const char*> {};
+
+TEST_P(FitOfPinholes, RecoversThemThroughNoise) {
+  const DisplayCalibration start = *make_display(GetParam(), kModules), truth = perturbed(start, 5);
+  const auto simulated = *simulate_observations(truth, few_points());
+  const auto fitted = fit_display(start, simulated.observations);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  expect_recovered(truth, *fitted);
+  EXPECT_THAT(fitted->outliers, IsEmpty());
+  for (const ModuleFit& module : fitted->modules) {
+    EXPECT_FALSE(module.is_grid);
+    EXPECT_NEAR(module.noise_px, kNoise_px, 0.02);
+    EXPECT_GT(module.before.median_px, 5 * module.after.median_px);
+    EXPECT_LT(module.after.max_px, 6 * kNoise_px);
+  }
+}
+
+TEST_P(FitOfPinholes, NamesTheOutliersAndNoOther) {
+  const DisplayCalibration start = *make_display(GetParam(), kModules), truth = perturbed(start, 6);
+  SimulationOptions options = few_points();
+  options.outliers = 0.02;
+  options.missing = 0.08;
+  const auto simulated = *simulate_observations(truth, options);
+  ASSERT_GT(simulated.outliers.size(), 5u);
+  const auto fitted = fit_display(start, simulated.observations);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  expect_recovered(truth, *fitted);
+  EXPECT_EQ(lines_of(fitted->outliers), outlier_lines(simulated));
+}
+
+INSTANTIATE_TEST_SUITE_P(Displays, FitOfPinholes, testing::Values("desk", "c80-conical"),
+                         [](const auto& test) { return std::string(test.param) == "desk" ? "Linear" : "Conical"; });
+
+TEST(Fit, IsExactWithoutNoise) {
+  const DisplayCalibration start = *make_display("desk", kModules), truth = perturbed(start, 7);
+  SimulationOptions options = few_points();
+  options.noise_px = 0;
+  options.outliers = 0.01;
+  options.missing = 0.05;
+  const auto simulated = *simulate_observations(truth, options);
+  const auto fitted = fit_display(start, simulated.observations);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  EXPECT_LE(map_error(truth, fitted->display).max_px, 1e-6);  // the issue's; priors pull by about kLeastScale_px
+  EXPECT_EQ(lines_of(fitted->outliers), outlier_lines(simulated));
+}
+
+// Truths that no pinhole can represent: the pinhole's picture, displaced by a wave.
+DisplayCalibration warped(const DisplayCalibration& display, double amplitude_px) {
+  DisplayCalibration result = display;
+  const int columns = 41, rows = 31;
+  for (ModuleCalibration& module : result.modules) {
+    const PinholeMap pinhole = std::get<PinholeMap>(module.map);
+    GridNodes nodes;
+    nodes.columns = columns;
+    nodes.rows = rows;
+    nodes.step_u_px = display.image.width / (columns - 1.0);
+    nodes.step_v_px = display.image.height / (rows - 1.0);
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const PixelPoint p = nodes.place(column, row);
+        const double a = 2 * std::numbers::pi * column / (columns - 1), b = 2 * std::numbers::pi * row / (rows - 1);
+        const auto s = screen_from_image(pinhole, {p.x + amplitude_px * std::sin(a + 1) * std::cos(0.7 * b),
+                                                   p.y + amplitude_px * std::cos(1.3 * a) * std::sin(b + 0.5)});
+        nodes.node.push_back(*s);
+      }
+    }
+    module.map = *GridMap::make(nodes);
+  }
+  return result;
+}
+
+class FitOfGrids : public testing::TestWithParam<bool> {};
+
+TEST_P(FitOfGrids, RecoversWhatNoPinholeCanRepresent) {
+  const bool sigmas_are_told = GetParam();
+  const DisplayCalibration start = *make_display("desk", kModules), truth = warped(perturbed(start, 8), 2);
+  SimulationOptions options = few_points();
+  options.points_u = 24;
+  options.points_v = 18;
+  options.outliers = 0.01;
+  options.write_sigma = sigmas_are_told;
+  const auto simulated = *simulate_observations(truth, options);
+  const auto fitted = fit_display(start, simulated.observations);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  // A field of many parameters follows the few observations in a corner, and goes on from them to the border: there the
+  // bound holds for 99 points of 100, and the worst is as far off as single observations are.
+  const MapError error = map_error(truth, fitted->display);
+  EXPECT_LE(error.root_mean_square_px, 0.7 * kNoise_px);
+  EXPECT_LE(error.quantile_99_px, 1.5 * kNoise_px);
+  EXPECT_LE(error.max_px, 5 * kNoise_px);
+  EXPECT_EQ(lines_of(fitted->outliers), outlier_lines(simulated));
+  for (const ModuleFit& module : fitted->modules) {
+    EXPECT_TRUE(module.is_grid);
+    EXPECT_GT(module.held_out_pinhole_px.value(), 5 * kNoise_px);
+    EXPECT_LT(module.held_out_field_px.value(), 2 * kNoise_px);  // root 2 of it is the noise of both axes
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sigmas, FitOfGrids, testing::Bool(),
+                         [](const auto& test) { return test.param ? "AreTold" : "AreFound"; });
+
+TEST(Fit, GridsAreLeftOutOnRequest) {
+  const DisplayCalibration start = *make_display("desk", 2), truth = warped(perturbed(start, 8), 2);
+  const auto simulated = *simulate_observations(truth, few_points());
+  FitOptions options;
+  options.residual_grids = false;
+  const auto fitted = fit_display(start, simulated.observations, options);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  for (const ModuleCalibration& module : fitted->display.modules) {
+    EXPECT_TRUE(std::holds_alternative<PinholeMap>(module.map));
+  }
+}
+
+// An independent reference: the formulas of pinhole.h at points of the cylinder.
+std::optional<PixelPoint> seen_on_cylinder(const PinholeMap& map, double radius_m, ScreenPoint s) {
+  const double angle = s.x / radius_m;
+  const glm::dvec3 p(radius_m * std::sin(angle), s.y, radius_m * std::cos(angle) - radius_m);
+  const glm::dvec3 q = module_from_physical_rotation(map) * (p - to_glm(map.position));
+  if (!(q.z > 0)) return std::nullopt;
+  const glm::dvec2 a = distort(map, glm::dvec2(q) / q.z);
+  return PixelPoint{map.focal_u_px * a.x + map.principal_u_px, map.focal_v_px * a.y + map.principal_v_px};
+}
+
+class FitOfCurvedScreens : public testing::TestWithParam<double> {};
+
+TEST_P(FitOfCurvedScreens, RecoversTheRadius) {
+  const double radius_m = GetParam();
+  DisplayCalibration start = *make_display("desk", 4);
+  const DisplayCalibration truth = perturbed(start, 9);
+  start.optics.screen_radius_m = 1.1 * radius_m;
+  Observations observations{"made", false, {}};
+  for (int k = 0; k < 4; ++k) {
+    const auto& pinhole = std::get<PinholeMap>(truth.modules[static_cast<std::size_t>(k)].map);
+    for (int i = 0; i < 400; ++i) {
+      const ScreenPoint s{-0.19 + 0.02 * (i % 20), -0.14 + 0.014 * (i / 20)};
+      const auto p = seen_on_cylinder(pinhole, radius_m, s);
+      if (!p || !contains(truth.image, *p)) continue;
+      observations.points.push_back({k, *p, s, 1, observations.points.size() + 2});
+    }
+  }
+  const auto fitted = fit_display(start, observations);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  EXPECT_NEAR(fitted->display.optics.screen_radius_m, radius_m, 1e-4 * std::abs(radius_m));
+  EXPECT_LT(fitted->radius_sd_m, 0.01 * std::abs(radius_m));
+  for (const ModuleFit& module : fitted->modules) EXPECT_LE(module.after.max_px, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Radii, FitOfCurvedScreens, testing::Values(1.0, -1.5),
+                         [](const auto& test) { return test.param > 0 ? "Convex" : "Concave"; });
+
+TEST(Fit, StartsFromHomographies) {
+  // The ideal map as a homography: u = (s / width + 1/2) columns, v = (1/2 - y / height) rows.
+  DisplayCalibration start = *make_display("desk", kModules);
+  const DisplayCalibration truth = perturbed(start, 5);
+  const double a = 256 / 0.4, b = 192 / 0.3;
+  const HomographyMap ideal{glm::dmat3({a, 0, 0}, {0, -b, 0}, {128, 96, 1})};
+  for (ModuleCalibration& module : start.modules) module.map = ideal;
+  const auto simulated = *simulate_observations(truth, few_points());
+  const auto fitted = fit_display(start, simulated.observations);
+  ASSERT_TRUE(fitted) << fitted.error().message();
+  expect_recovered(truth, *fitted);
+
+  start.modules[1].map = HomographyMap{glm::dmat3({a, 0, 0}, {0, b, 0}, {128, 96, 1})};
+  const auto mirrored = fit_display(start, simulated.observations);
+  ASSERT_FALSE(mirrored);
+  EXPECT_THAT(mirrored.error().message(), HasSubstr("start: module 1: homography: "));
+}
+
+TEST(Fit, DoesNotDependOnTheOrderOfLines) {
+  const DisplayCalibration start = *make_display("desk", 2), truth = perturbed(start, 10);
+  SimulationOptions options = few_points();
+  options.outliers = 0.01;
+  auto simulated = *simulate_observations(truth, options);
+  const auto one = fit_display(start, simulated.observations);
+  std::shuffle(simulated.observations.points.begin(), simulated.observations.points.end(), std::mt19937(3));
+  const auto other = fit_display(start, simulated.observations);
+  ASSERT_TRUE(one && other);
+  EXPECT_EQ(one->display, other->display);
+  EXPECT_EQ(one->outliers, other->outliers);
+}
+
+// Fits what `spoil` leaves of observations without noise; the message of the refusal.
+template <class Spoil>
+std::string refusal(Spoil spoil) {
+  const DisplayCalibration start = *make_display("desk", 2);
+  auto observations = simulate_observations(perturbed(start, 11), few_points())->observations;
+  observations.source = "seen.csv";
+  spoil(observations.points);
+  const auto fitted = fit_display(start, observations);
+  return fitted ? "" : fitted.error().message();
+}
+
+// Keeps those points of module 1 that `keep` wants, and all of module 0.
+template <class Keep>
+auto only(Keep keep) {
+  return [keep](std::vector<Observation>& points) {
+    std::erase_if(points, [&](const Observation& o) { return o.module == 1 && !keep(o); });
+  };
+}
+
+TEST(Fit, RefusesWhatCannotBeDetermined) {
+  EXPECT_THAT(refusal([](auto& points) { points.clear(); }), HasSubstr("seen.csv: module 0: no observations"));
+  EXPECT_THAT(refusal(only([](const Observation&) { return false; })),
+              HasSubstr("seen.csv: module 1: no observations"));
+  int left = 7;
+  EXPECT_THAT(refusal(only([&left](const Observation&) { return left-- > 0; })),
+              HasSubstr("seen.csv: module 1: 7 observations are 14 numbers; a pinhole has 15 parameters"));
+  EXPECT_THAT(refusal(only([](const Observation& o) { return std::abs(o.in_image.y - 96) < 1; })),
+              HasSubstr("seen.csv: module 1: all observations lie on a line of the image"));
+  const std::string clump =
+      refusal(only([](const Observation& o) { return std::hypot(o.in_image.x - 128, o.in_image.y - 96) < 25; }));
+  EXPECT_THAT(clump, HasSubstr("seen.csv: module 1: under-determined: "));
+  EXPECT_THAT(clump, HasSubstr("undetermined: "));
+}
+
+TEST(Fit, RefusesWhatCannotBeTrue) {
+  EXPECT_THAT(refusal([](auto& points) { points[4].in_image.x = 256.5; }), HasSubstr("seen.csv:6: u, v: (256.5, "));
+  EXPECT_THAT(refusal([](auto& points) { points[4].module = 2; }),
+              HasSubstr("seen.csv:6: module: 2; the display has modules 0 to 1"));
+  EXPECT_THAT(refusal([](auto& points) {
+                points[9].in_image = points[4].in_image;
+                points[9].on_screen = points[4].on_screen;
+              }),
+              HasSubstr("seen.csv:11: repeats the observation of line 6"));
+  EXPECT_THAT(refusal([](auto& points) {
+                for (Observation& o : points) o.on_screen.y = 0.1 * o.on_screen.x;
+              }),
+              HasSubstr("seen.csv: module 0: all observations lie on a line of the screen"));
+}
+
+}  // namespace
+}  // namespace lfd
