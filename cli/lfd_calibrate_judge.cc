@@ -24,7 +24,7 @@ void print_line(std::string_view what, const std::string& value) {
 }
 
 std::string kinds_of_maps(const DisplayCalibration& display) {
-  constexpr const char* kNames[] = {"ideal", "homography", "pinhole"};
+  constexpr const char* kNames[] = {"ideal", "homography", "pinhole", "grid"};
   std::string text;
   for (std::size_t kind = 0; kind < std::size(kNames); ++kind) {
     const auto count = std::count_if(display.modules.begin(), display.modules.end(),
