@@ -13,10 +13,13 @@
 namespace lfd {
 namespace {
 
+constexpr std::string_view kErrorMark = "error: ";  // before the last line of a program that failed
 constexpr std::string_view kEndpointLine = "lfd-controller: control ";
 constexpr auto kBindPatience = std::chrono::seconds(10);
 
+// Errors that end a child are printed with its end, once.
 void print_line(const std::string& name, std::string_view line) {
+  if (line.starts_with(kErrorMark)) return;
   static std::mutex one_at_a_time;  // children are heard on threads of their own
   const std::lock_guard lock(one_at_a_time);
   std::cerr << name << " | " << line << std::endl;
@@ -43,12 +46,18 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   return command;
 }
 
-// What a process had to say about its end: its last error.
+// What a process had to say about its failure: its last error.
 std::string last_words(const Process& process) {
   const std::vector<std::string> lines = process.lines();
   const auto error =
-      std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with("error: "); });
-  return error != lines.rend() ? error->substr(std::string_view("error: ").size()) : "it said no more";
+      std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with(kErrorMark); });
+  return error != lines.rend() ? error->substr(kErrorMark.size()) : "it said no more";
+}
+
+// "node left: exit code 1: why".
+std::string end_of(const Process& process, const Exit& exit) {
+  if (exit.succeeded()) return fmt::format("{}: has ended, though the cluster was not asked to", process.name());
+  return fmt::format("{}: {}: {}", process.name(), exit.text(), last_words(process));
 }
 
 }  // namespace
@@ -124,11 +133,12 @@ void Cluster::wait(const StopSignals& signals, Clock::duration at_most) const {
 }
 
 std::optional<std::string> Cluster::ended() {
+  std::vector<std::string> words;
   for (const auto& process : processes_) {
-    const auto exit = process->poll();
-    if (exit) return fmt::format("{}: {}: {}", process->name(), exit->text(), last_words(*process));
+    if (const auto exit = process->poll()) words.push_back(end_of(*process, *exit));
   }
-  return std::nullopt;
+  if (words.empty()) return std::nullopt;
+  return fmt::format("{}", fmt::join(words, "; "));
 }
 
 Status Cluster::finish(Clock::duration at_most) {
@@ -136,9 +146,25 @@ Status Cluster::finish(Clock::duration at_most) {
   for (const auto& process : processes_) {
     const auto exit = process->wait(deadline - Clock::now());
     if (!exit) return Error("does not end").within(process->name());
-    if (!exit->succeeded()) return Error(last_words(*process)).within(exit->text()).within(process->name());
+    if (!exit->succeeded()) return Error(end_of(*process, *exit));
   }
   return {};
+}
+
+Status Cluster::quit_or_failed(Clock::duration at_most) {
+  const auto failure = [&]() -> Status {
+    for (const auto& process : processes_) {
+      const auto exit = process->poll();
+      if (exit && !exit->succeeded()) return Error(end_of(*process, *exit));
+    }
+    return {};
+  };
+  LFD_TRY_STATUS(failure());
+  const auto before = ended();
+  // The controller tells the others to end, and goes when its last words have left: perhaps after them.
+  const bool quit = processes_.front()->wait(at_most).has_value();
+  LFD_TRY_STATUS(failure());
+  return quit ? Status() : Error(before.value_or("nothing has ended"));
 }
 
 void Cluster::stop(Clock::duration patience) {

@@ -49,11 +49,15 @@ class Cluster {
   // Waits until a child ends, a signal comes or `at_most` has passed.
   void wait(const StopSignals& signals, Clock::duration at_most) const;
 
-  // A child that has ended, in words ("node left: exit code 1: error: ..."); absent while all run.
+  // The children that have ended, in words ("node left: exit code 1: why"); absent while all run.
   std::optional<std::string> ended();
 
   // Waits until all have ended by themselves, as after a client's quit; an error names who failed or did not end.
   Status finish(Clock::duration at_most);
+
+  // Once a child has ended: success where a client's quit (or a signal to the controller) is the reason, which the
+  // controller's own good end within `at_most` tells, in whatever order the others go; else the error says who ended.
+  Status quit_or_failed(Clock::duration at_most);
 
   // Ends all: SIGTERM to everyone at once, SIGKILL to whoever still runs after `patience`.
   void stop(Clock::duration patience);

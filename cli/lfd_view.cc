@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/file.h"
 #include "base/log.h"
 #include "cli/lfd_commands.h"
 #include "proto/frame_files.h"
@@ -83,15 +84,15 @@ void add_view_command(CLI::App& app, int& exit_code) {
   CLI::App* command = add_command(app, "view", "Write what a viewer at a place sees", exit_code, [arguments] {
     if (!(arguments->eye[2] > 0))
       return wrong_use(Error("--eye: z must be > 0: a viewer stands in front of the screen"));
+    if (const Status writable = check_writable(arguments->out); !writable) return fail(writable.error());
     return do_with_cluster(arguments->cluster, [&](StopSignals& signals) { return view(*arguments, signals); });
   });
   add_cluster_options(*command, arguments->cluster);
-  command->add_option("--eye", arguments->eye, "X,Y,Z of the eye in physical metres (z: distance from the screen)")
-      ->required()
-      ->delimiter(',')
-      ->expected(3);
+  add_numbers(*command, "--eye", arguments->eye, "X,Y,Z", "Of the eye in physical metres (z: distance from the screen)")
+      ->required();
   command->add_option("--out", arguments->out, "PNG file to write")->required();
-  command->add_option("--frames-dir", arguments->frames, "Use images that `lfd render` wrote to this folder");
+  command->add_option("--frames-dir", arguments->frames,
+                      "Use images that `lfd render` wrote: the folder of a frame, or its parent (then frame 0)");
 }
 
 }  // namespace lfd
