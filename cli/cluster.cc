@@ -13,11 +13,9 @@
 namespace lfd {
 namespace {
 
-constexpr std::string_view kErrorMark = "error: ";  // before the last line of a program that failed
 constexpr std::string_view kEndpointLine = "lfd-controller: control ";
 constexpr auto kBindPatience = std::chrono::seconds(10);
 
-// Errors that end a child are printed with its end, once.
 void print_line(const std::string& name, std::string_view line) {
   if (line.starts_with(kErrorMark)) return;
   static std::mutex one_at_a_time;  // children are heard on threads of their own
@@ -46,14 +44,6 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   return command;
 }
 
-// What a process had to say about its failure: its last error.
-std::string last_words(const Process& process) {
-  const std::vector<std::string> lines = process.lines();
-  const auto error =
-      std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with(kErrorMark); });
-  return error != lines.rend() ? error->substr(kErrorMark.size()) : "it said no more";
-}
-
 // "node left: exit code 1: why".
 std::string end_of(const Process& process, const Exit& exit) {
   if (exit.succeeded()) return fmt::format("{}: has ended, though the cluster was not asked to", process.name());
@@ -61,6 +51,13 @@ std::string end_of(const Process& process, const Exit& exit) {
 }
 
 }  // namespace
+
+std::string last_words(const Process& process) {
+  const std::vector<std::string> lines = process.lines();
+  const auto error =
+      std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with(kErrorMark); });
+  return error != lines.rend() ? error->substr(kErrorMark.size()) : "it said no more";
+}
 
 Result<Deployment> load_deployment(const ClusterOptions& options) {
   DeploymentOverrides overrides;
@@ -132,13 +129,8 @@ void Cluster::wait(const StopSignals& signals, Clock::duration at_most) const {
   ::poll(descriptors.data(), descriptors.size(), static_cast<int>(patience));
 }
 
-std::optional<std::string> Cluster::ended() {
-  std::vector<std::string> words;
-  for (const auto& process : processes_) {
-    if (const auto exit = process->poll()) words.push_back(end_of(*process, *exit));
-  }
-  if (words.empty()) return std::nullopt;
-  return fmt::format("{}", fmt::join(words, "; "));
+bool Cluster::has_ended() {
+  return std::ranges::any_of(processes_, [](const auto& process) { return process->poll().has_value(); });
 }
 
 Status Cluster::finish(Clock::duration at_most) {
@@ -152,19 +144,17 @@ Status Cluster::finish(Clock::duration at_most) {
 }
 
 Status Cluster::quit_or_failed(Clock::duration at_most) {
-  const auto failure = [&]() -> Status {
+  const auto failure = [&](bool any_end) -> Status {
     for (const auto& process : processes_) {
       const auto exit = process->poll();
-      if (exit && !exit->succeeded()) return Error(end_of(*process, *exit));
+      if (exit && (any_end || !exit->succeeded())) return Error(end_of(*process, *exit));
     }
     return {};
   };
-  LFD_TRY_STATUS(failure());
-  const auto before = ended();
+  LFD_TRY_STATUS(failure(false));
   // The controller tells the others to end, and goes when its last words have left: perhaps after them.
-  const bool quit = processes_.front()->wait(at_most).has_value();
-  LFD_TRY_STATUS(failure());
-  return quit ? Status() : Error(before.value_or("nothing has ended"));
+  const bool controller_ended = processes_.front()->wait(at_most).has_value();
+  return failure(!controller_ended);
 }
 
 void Cluster::stop(Clock::duration patience) {

@@ -35,6 +35,12 @@ Result<Deployment> load_deployment(const ClusterOptions& options);
 // The modules that the options name; empty: all. Errors name what is no number, or no module of the display.
 Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment);
 
+// The line of a program that says why it failed; printed with its end, not before.
+inline constexpr std::string_view kErrorMark = "error: ";
+
+// What a process had to say about its failure: its last error.
+std::string last_words(const Process& process);
+
 class Cluster {
  public:
   // Starts every process; they find each other in their own time. Lines of the children are printed on standard error
@@ -49,8 +55,8 @@ class Cluster {
   // Waits until a child ends, a signal comes or `at_most` has passed.
   void wait(const StopSignals& signals, Clock::duration at_most) const;
 
-  // The children that have ended, in words ("node left: exit code 1: why"); absent while all run.
-  std::optional<std::string> ended();
+  // Whether any child has ended.
+  bool has_ended();
 
   // Waits until all have ended by themselves, as after a client's quit; an error names who failed or did not end.
   Status finish(Clock::duration at_most);

@@ -46,8 +46,9 @@ std::string progress(const proto::Status& status, std::uint32_t frames) {
 // Why there is nothing to wait for any more, if so.
 Status still_running(Cluster& cluster, StopSignals& signals) {
   if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
-  if (const auto ended = cluster.ended()) return Error(*ended);
-  return {};
+  if (!cluster.has_ended()) return {};
+  LFD_TRY_STATUS(cluster.quit_or_failed(kStopPatience));
+  return Error("the controller was asked to end before the frames were drawn");
 }
 
 // Sends the request once the controller is there, while it watches the children and the signals; its number.
@@ -120,11 +121,13 @@ Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals
   LFD_TRY(const proto::Reply reply, await_frames(options, cluster, client, watcher, signals));
   LFD_TRY(const proto::Status status, ask_status(watcher));
   const std::vector<proto::FrameReport> frames(reply.frame().begin(), reply.frame().end());
-  LFD_TRY_STATUS(
-      write_file(report_path(options.cluster.images), report_json(cluster.deployment(), status.scene(), frames)));
+  const std::vector<std::string> warnings = warnings_of(frames, cluster.modules().size());
+  LFD_TRY_STATUS(write_file(report_path(options.cluster.images),
+                            report_json(cluster.deployment(), status.scene(), frames, warnings)));
   LFD_TRY_STATUS(client.quit(kAnswerPatience));
   LFD_TRY_STATUS(cluster.finish(kWriteOut));
   std::cerr << time_table(frames);
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << "\n";
   return check_images(options, cluster, frames);
 }
 

@@ -26,7 +26,7 @@ Status run(const ClusterOptions& options, StopSignals& signals) {
       cluster.stop(kStopPatience);
       return {};
     }
-    if (cluster.ended()) {
+    if (cluster.has_ended()) {
       const Status done = cluster.quit_or_failed(kStopPatience);
       cluster.stop(kStopPatience);
       return done;

@@ -51,13 +51,16 @@ Status look(const Arguments& arguments, const fs::path& frame, StopSignals& sign
       .name = "view",
       .command = {own_folder() / "lfd-display", "view", "--frames-dir", frame, "--display", deployment.display_file,
                   fmt::format("--eye={}", fmt::join(arguments.eye, ",")), "--out", arguments.out},
-      .on_line = [](std::string_view line) { std::cerr << line << std::endl; },
+      .on_line =
+          [](std::string_view line) {
+            if (!line.starts_with(kErrorMark)) std::cerr << line << std::endl;
+          },
       .environment = {}};
   LFD_TRY(const auto process, Process::start(std::move(options)));
   const auto deadline = Clock::now() + kViewPatience;
   while (Clock::now() < deadline) {
     if (const auto exit = process->wait(std::chrono::milliseconds(50))) {
-      return exit->succeeded() ? Status() : Status(Error("lfd-display view: " + exit->text()));
+      return exit->succeeded() ? Status() : Status(Error("lfd-display view: " + last_words(*process)));
     }
     if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
   }

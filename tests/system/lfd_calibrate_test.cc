@@ -85,5 +85,10 @@ TEST(LfdCalibrate, ChecksAndRefuses) {
   EXPECT_EQ(calibrate("check /no/such/file").exit_code, 1);
 }
 
+TEST(LfdCalibrate, FailsWhereItsOutputCannotBeWritten) {
+  EXPECT_EQ(calibrate("info " + kDesk + " >/dev/full").exit_code, 1);
+  EXPECT_THAT(calibrate("make desk --out no/such/folder/desk.textproto").text, HasSubstr("there is no folder"));
+}
+
 }  // namespace
 }  // namespace lfd
