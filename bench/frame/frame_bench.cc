@@ -48,7 +48,7 @@ Result<std::uint32_t> chosen_module(const FrameBenchOptions& options, const Disp
   const auto count = static_cast<std::uint32_t>(display.modules.size());
   const std::uint32_t module = options.module.value_or(count / 2);
   if (module < count) return module;
-  return Error(fmt::format("{}: display \"{}\" has modules 0 to {}", module, display.name, count - 1));
+  return Error(fmt::format("module {}: display \"{}\" has modules 0 to {}", module, display.name, count - 1));
 }
 
 // What is known of the subject before anything is timed; the first frame tells the rest.
@@ -92,8 +92,7 @@ Status check_options(const FrameBenchOptions& options) {
     return Error(fmt::format("--gpu {}: there are {} (see lfd-rendernode --list-gpus)", options.gpu, gpus));
   const auto deployment = load_deployment(options.deployment, options.overrides);
   if (!deployment) return {};
-  if (const auto module = chosen_module(options, deployment->display); !module)
-    return module.error().within("--module");
+  if (const auto module = chosen_module(options, deployment->display); !module) return module.error();
   return {};
 }
 
