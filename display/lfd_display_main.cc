@@ -123,10 +123,7 @@ int main_of_display(int argc, char** argv) {
     return wrong_use(Error("where is the controller? Say --controller, or give a deployment file"));
   }
   start_log(daemon.name, level);
-  if (!out.empty()) {
-    if (const Status folder = make_folder(out); !folder) return fail(folder.error());
-    daemon.out = out;
-  }
+  if (!out.empty()) daemon.out = out;
   const Status status = app.got_subcommand("view")    ? view(view_options)
                         : app.got_subcommand("sheet") ? sheet(sheet_options)
                                                       : run(daemon, deployment, images->count() > 0);
