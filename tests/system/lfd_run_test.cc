@@ -121,7 +121,9 @@ TEST(LfdRun, EndsWellWhenAClientQuits) {
   const Workbench bench;
   for (int round = 0; round < 3; ++round) {
     const Running running = run_cluster(bench.deployment(kQuick));
-    if (round > 0) ASSERT_TRUE(draws(running, 1));
+    if (round > 0) {
+      ASSERT_TRUE(draws(running, 1));
+    }
     const auto quit = start_program("lfd", {"ctl", "quit", "--controller", running.endpoint});
     const auto said = quit->wait(kPatience);
     ASSERT_TRUE(said);
