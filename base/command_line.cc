@@ -1,8 +1,13 @@
 // Command lines through CLI11.
 #include "base/command_line.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -103,6 +108,74 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description, 
   CLI::App* command = app.add_subcommand(name, description);
   command->callback([&exit_code, run = std::move(run)] { exit_code = run(); });
   return command;
+}
+
+int end_of_output() {
+  std::cout.flush();
+  const bool written = std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return written ? kExitDone : fail(Error("standard output: cannot be written"));
+}
+
+void add_switch(CLI::App& app, const std::string& yes, const std::string& no, std::optional<bool>& value,
+                const std::string& description) {
+  const CLI::Option* on = app.add_flag_callback(
+      yes, [&value] { value = true; }, description);
+  app.add_flag_callback(
+         no, [&value] { value = false; }, "The opposite of " + yes)
+      ->excludes(app.get_option(on->get_name()));
+}
+
+CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<std::string>& words,
+                      const std::string& description) {
+  const auto take = [&words, name](const std::vector<std::string>& lists) {
+    words.clear();
+    for (const std::string& list : lists) {
+      for (std::string_view rest = list;;) {
+        const std::size_t comma = rest.find(',');
+        if (rest.substr(0, comma).empty())
+          throw CLI::ValidationError(name, fmt::format("a name is empty in \"{}\"", list));
+        words.emplace_back(rest.substr(0, comma));
+        if (comma == rest.npos) break;
+        rest.remove_prefix(comma + 1);
+      }
+    }
+  };
+  return app.add_option_function<std::vector<std::string>>(name, take, description);
+}
+
+CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<double>& numbers, const std::string& form,
+                         const std::string& description) {
+  const int count = 1 + static_cast<int>(std::ranges::count(form, ','));
+  const auto take = [&numbers, name, form, count](const std::vector<double>& given) {
+    const bool whole = static_cast<int>(given.size()) == count;
+    if (!whole) throw CLI::ValidationError(name, fmt::format("{} numbers; {} is expected", given.size(), form));
+    if (!std::ranges::all_of(given, [](double number) { return std::isfinite(number); }))
+      throw CLI::ValidationError(name, "every number must be finite");
+    numbers = given;
+  };
+  return app.add_option_function<std::vector<double>>(name, take, description)
+      ->delimiter(',')
+      ->expected(1, count)
+      ->type_name(form);
+}
+
+CLI::Validator number_within(double low, double high) {
+  const auto wrong = [low, high](const std::string& text) -> std::string {
+    double number = 0;
+    if (CLI::detail::lexical_cast(text, number) && number >= low && number <= high) return "";
+    return fmt::format("{}; {} to {} are possible", text, low, high);
+  };
+  return CLI::Validator(wrong, fmt::format("{} to {}", low, high));
+}
+
+CLI::Validator seed_number() {
+  const auto wrong = [](const std::string& text) -> std::string {
+    std::uint64_t number = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failure == std::errc() && end == text.data() + text.size()) return "";
+    return fmt::format("{}; whole numbers from 0 to {} are possible", text, std::numeric_limits<std::uint64_t>::max());
+  };
+  return CLI::Validator(wrong, "");
 }
 
 CLI::Option* add_log_level(CLI::App& app, std::string& level) {

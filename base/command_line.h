@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 
@@ -25,6 +26,28 @@ int wrong_use(const Error& error);
 // A subcommand with the function that does it, called once its options are parsed; its answer goes into `exit_code`.
 CLI::App* add_command(CLI::App& app, const char* name, const char* description, int& exit_code,
                       std::function<int()> run);
+
+// Prints nothing more: kExitDone where all of standard output could be written, else a line on standard error and
+// kExitFailed.
+int end_of_output();
+
+// A choice of two, e.g. "--on" and "--off": absent where neither is given; both together are wrong use.
+void add_switch(CLI::App& app, const std::string& yes, const std::string& no, std::optional<bool>& value,
+                const std::string& description);
+
+// Words between commas, none of them empty; may be given several times.
+CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<std::string>& words,
+                      const std::string& description);
+
+// As many finite numbers between commas as `form` names ("X,Y,Z").
+CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<double>& numbers, const std::string& form,
+                         const std::string& description);
+
+// A number from `low` to `high`; "nan" is none.
+CLI::Validator number_within(double low, double high);
+
+// A whole number that fits into 64 bits, without a sign.
+CLI::Validator seed_number();
 
 // --log-level, one of those that start_log() knows.
 CLI::Option* add_log_level(CLI::App& app, std::string& level);

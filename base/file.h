@@ -12,8 +12,16 @@ namespace lfd {
 // Reads a regular file of at most `limit_bytes`.
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit_bytes = std::size_t{1} << 31);
 
-// Writes beside `path`, then renames: a reader sees the old content or the new one, never half. Creates missing
-// folders.
+// Writes beside a regular file, then renames: a reader sees the old content or the new one, never half. Symbolic links
+// are followed. What exists and is no regular file (a device, a pipe) is written to as it is. Errors: as
+// check_writable().
 Status write_file(const std::filesystem::path& path, std::string_view content);
+
+// What is known before anything is written: the folder is missing or closed to this user, `path` is a folder, or a file
+// that may not be written.
+Status check_writable(const std::filesystem::path& path);
+
+// Makes a folder with all that leads to it, and tries whether files can be made in it.
+Status make_folder(const std::filesystem::path& path);
 
 }  // namespace lfd

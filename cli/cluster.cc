@@ -17,6 +17,7 @@ constexpr std::string_view kEndpointLine = "lfd-controller: control ";
 constexpr auto kBindPatience = std::chrono::seconds(10);
 
 void print_line(const std::string& name, std::string_view line) {
+  if (line.starts_with(kErrorMark)) return;
   static std::mutex one_at_a_time;  // children are heard on threads of their own
   const std::lock_guard lock(one_at_a_time);
   std::cerr << name << " | " << line << std::endl;
@@ -44,15 +45,20 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   return command;
 }
 
-// What a process had to say about its end: its last error.
-std::string last_words(const Process& process) {
-  const std::vector<std::string> lines = process.lines();
-  const auto error =
-      std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with("error: "); });
-  return error != lines.rend() ? error->substr(std::string_view("error: ").size()) : "it said no more";
+// "node left: exit code 1: why".
+std::string end_of(const Process& process, const Exit& exit) {
+  if (exit.succeeded()) return fmt::format("{}: has ended, though the cluster was not asked to", process.name());
+  return fmt::format("{}: {}: {}", process.name(), exit.text(), last_words(process));
 }
 
 }  // namespace
+
+std::string last_words(const Process& process) {
+  const std::vector<std::string> lines = process.lines();
+  const auto error =
+      std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with(kErrorMark); });
+  return error != lines.rend() ? error->substr(kErrorMark.size()) : "it said no more";
+}
 
 Result<Deployment> load_deployment(const ClusterOptions& options) {
   DeploymentOverrides overrides;
@@ -124,12 +130,8 @@ void Cluster::wait(const StopSignals& signals, Clock::duration at_most) const {
   ::poll(descriptors.data(), descriptors.size(), static_cast<int>(patience));
 }
 
-std::optional<std::string> Cluster::ended() {
-  for (const auto& process : processes_) {
-    const auto exit = process->poll();
-    if (exit) return fmt::format("{}: {}: {}", process->name(), exit->text(), last_words(*process));
-  }
-  return std::nullopt;
+bool Cluster::has_ended() {
+  return std::ranges::any_of(processes_, [](const auto& process) { return process->poll().has_value(); });
 }
 
 Status Cluster::finish(Clock::duration at_most) {
@@ -137,9 +139,23 @@ Status Cluster::finish(Clock::duration at_most) {
   for (const auto& process : processes_) {
     const auto exit = process->wait(deadline - Clock::now());
     if (!exit) return Error("does not end").within(process->name());
-    if (!exit->succeeded()) return Error(last_words(*process)).within(exit->text()).within(process->name());
+    if (!exit->succeeded()) return Error(end_of(*process, *exit));
   }
   return {};
+}
+
+Status Cluster::quit_or_failed(Clock::duration at_most) {
+  const auto failure = [&](bool any_end) -> Status {
+    for (const auto& process : processes_) {
+      const auto exit = process->poll();
+      if (exit && (any_end || !exit->succeeded())) return Error(end_of(*process, *exit));
+    }
+    return {};
+  };
+  LFD_TRY_STATUS(failure(false));
+  // The controller tells the others to end, and goes when its last words have left: perhaps after them.
+  const bool controller_ended = processes_.front()->wait(at_most).has_value();
+  return failure(!controller_ended);
 }
 
 void Cluster::stop(Clock::duration patience) {

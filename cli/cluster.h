@@ -36,6 +36,12 @@ Result<Deployment> load_deployment(const ClusterOptions& options);
 // The modules that the options name; empty: all. Errors name what is no number, or no module of the display.
 Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment);
 
+// The line of a program that says why it failed; printed with its end, not before.
+inline constexpr std::string_view kErrorMark = "error: ";
+
+// What a process had to say about its failure: its last error.
+std::string last_words(const Process& process);
+
 class Cluster {
  public:
   // Starts every process; they find each other in their own time. Lines of the children are printed on standard error
@@ -50,11 +56,15 @@ class Cluster {
   // Waits until a child ends, a signal comes or `at_most` has passed.
   void wait(const StopSignals& signals, Clock::duration at_most) const;
 
-  // A child that has ended, in words ("node left: exit code 1: error: ..."); absent while all run.
-  std::optional<std::string> ended();
+  // Whether any child has ended.
+  bool has_ended();
 
   // Waits until all have ended by themselves, as after a client's quit; an error names who failed or did not end.
   Status finish(Clock::duration at_most);
+
+  // Once a child has ended: success where a client's quit (or a signal to the controller) is the reason, which the
+  // controller's own good end within `at_most` tells, in whatever order the others go; else the error says who ended.
+  Status quit_or_failed(Clock::duration at_most);
 
   // Ends all: SIGTERM to everyone at once, SIGKILL to whoever still runs after `patience`.
   void stop(Clock::duration patience);

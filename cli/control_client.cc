@@ -56,4 +56,20 @@ Result<proto::Reply> ControlClient::ask(const proto::Request& request, Clock::du
   return *reply;
 }
 
+Status ControlClient::quit(Clock::duration at_most) {
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  const auto deadline = Clock::now() + at_most;
+  proto::Request request;
+  request.mutable_quit();
+  LFD_TRY(const std::uint64_t id, send(std::move(request), at_most));
+  while (Clock::now() < deadline) {
+    if (const auto reply = receive(id, kLook)) return reply->error().empty() ? Status() : Error(reply->error());
+    proto::Envelope still_there;
+    still_there.mutable_request()->set_id(++last_id_);
+    still_there.mutable_request()->mutable_status();
+    if (!socket_.send(still_there)) return {};
+  }
+  return Error(fmt::format("the controller at {} was asked to end and does not", endpoint_));
+}
+
 }  // namespace lfd

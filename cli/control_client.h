@@ -23,6 +23,9 @@ class ControlClient {
   // The reply to request `id`; absent where none has come in time. Replies to others are left out.
   std::optional<proto::Reply> receive(std::uint64_t id, Clock::duration at_most);
 
+  // Asks the controller to end. Its reply may be lost with the connection: that it has gone is an answer too.
+  Status quit(Clock::duration at_most);
+
   // Both. A reply that tells an error is an error.
   Result<proto::Reply> ask(const proto::Request& request, Clock::duration at_most);
 

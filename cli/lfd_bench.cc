@@ -1,4 +1,7 @@
 // lfd bench: error against run time, measured.
+#include <signal.h>
+#include <unistd.h>
+
 #include <iostream>
 #include <memory>
 
@@ -26,10 +29,14 @@ void set_vector(proto::Vector& to, double x, double y, double z) {
   to.set_z(z);
 }
 
+// Nothing is left behind that would have to be tidied up, and frames cannot be interrupted otherwise.
+void end_by_signal(int) {
+  constexpr std::string_view kLine = "error: ended by a signal; nothing is written\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::_exit(kExitFailed);
+}
+
 Status write_all(const std::filesystem::path& folder, const bench::FrameTable& table) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) return Error(failed.message()).within(folder.string());
   LFD_TRY_STATUS(write_file(folder / "frame.txt", bench::text_of(table)));
   LFD_TRY_STATUS(write_file(folder / "frame.csv", bench::csv_of(table)));
   return write_file(folder / "frame.json", bench::json_of(table));
@@ -43,12 +50,17 @@ int bench_frame(Arguments& a) {
     set_vector(*roi.mutable_world_centre(), a.roi[0], a.roi[1], a.roi[2]);
     set_vector(*roi.mutable_world_size(), a.roi[3], a.roi[4], a.roi[5]);
   }
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_by_signal);
+  if (const Status possible = bench::check_options(a.options); !possible) return wrong_use(possible.error());
+  if (!a.out.empty()) {
+    if (const Status folder = make_folder(a.out); !folder) return fail(folder.error());
+  }
   const auto table = bench::frame_bench(a.options);
   if (!table) return fail(table.error());
   std::cout << (a.json ? bench::json_of(*table) : bench::text_of(*table));
-  if (a.out.empty()) return kExitDone;
+  if (a.out.empty()) return end_of_output();
   const Status written = write_all(a.out, *table);
-  return written ? kExitDone : fail(written.error());
+  return written ? end_of_output() : fail(written.error());
 }
 
 struct MapArguments {
@@ -60,6 +72,8 @@ struct MapArguments {
 int bench_map(MapArguments& a) {
   if (!a.scene.empty()) a.options.overrides.scene = a.scene;
   if (!a.display.empty()) a.options.overrides.display = a.display;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_by_signal);
+  if (const Status folder = make_folder(a.out); !folder) return fail(folder.error());
   const auto table = bench::map_bench(a.options);
   if (!table) return fail(table.error());
   std::cout << bench::text_of(*table);
@@ -68,7 +82,7 @@ int bench_map(MapArguments& a) {
                                 write("map.json", bench::json_of(*table)), write("map.svg", bench::svg_of(*table))}) {
     if (!written) return fail(written.error());
   }
-  return kExitDone;
+  return end_of_output();
 }
 
 void add_map_command(CLI::App& bench, int& exit_code) {
@@ -105,11 +119,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   frame->add_option("--module", a.options.module, "Number of the module (default: the middle one)");
   frame->add_option("--scene", a.scene, "Show this glTF file instead of the deployment's scene");
   frame->add_option("--display", a.display, "Use this calibration file instead of the deployment's");
-  frame
-      ->add_option("--roi", a.roi,
-                   "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)")
-      ->delimiter(',')
-      ->expected(6);
+  add_numbers(*frame, "--roi", a.roi, kBoxForm,
+              "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
   frame->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
   frame->add_option("--ao-pixels", a.options.ao_subset.pixels, "Pixels whose ambient occlusion is judged")
       ->check(CLI::Range(0, 100000000))

@@ -57,7 +57,7 @@ int run_info(const std::string& file) {
   print_line("angular scattering", fmt::format("{:.6g} rad ({:.4g} degrees)", display->angular_scattering_rad,
                                                display->angular_scattering_rad * 180 / std::numbers::pi));
   print_line("hash", calibration_hash(*display));
-  return kExitDone;
+  return end_of_output();
 }
 
 }  // namespace

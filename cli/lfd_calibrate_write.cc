@@ -36,8 +36,8 @@ constexpr std::size_t kForeignFileLimit_bytes = std::size_t{1} << 31;
 int write_display(const DisplayCalibration& display, const std::string& out,
                   std::optional<GridFileFormat> grids = std::nullopt) {
   if (out.empty()) {
-    std::cout << print_text(write_calibration(display)) << std::flush;
-    return std::cout ? kExitDone : fail(Error("standard output: cannot be written"));
+    std::cout << print_text(write_calibration(display));
+    return end_of_output();
   }
   if (auto status = save_calibration(out, display, grids); !status) return fail(status.error());
   return kExitDone;
@@ -110,6 +110,7 @@ void add_make_command(CLI::App& app, int& exit_code) {
   for (const std::string& name : display_names()) names += (names.empty() ? "" : ", ") + name;
   command->add_option("NAME", options->name, "One of " + names)->required();
   command->add_option("--perturb", options->seed, "Add the errors of an installation by hand: pose, focal length, lens")
+      ->check(seed_number())
       ->type_name("SEED");
   command->add_option("--modules", options->modules, "So many modules within the same span")->type_name("N");
   command->add_option("--out", options->out, "File to write; standard output without it")->type_name("FILE");

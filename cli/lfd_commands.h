@@ -14,6 +14,9 @@ void add_view_command(CLI::App& app, int& exit_code);
 void add_ctl_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 
+// How a box is written on a command line: centre and edge lengths.
+inline constexpr const char* kBoxForm = "CX,CY,CZ,SX,SY,SZ";
+
 // DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --accept-calibration, --module, --log-level.
 void add_cluster_options(CLI::App& command, ClusterOptions& options);
 

@@ -1,6 +1,7 @@
 // lfd ctl: looks at a running cluster and changes what it shows.
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "cli/lfd_commands.h"
 #include "cli/runtime_file.h"
 #include "cli/status_table.h"
+#include "proto/endpoint.h"
 
 namespace lfd {
 namespace {
@@ -29,6 +31,14 @@ struct Arguments {
   std::optional<int> ao_samples, ao_radii;
   std::string ao_generator, ao_target;
 };
+
+CLI::Validator endpoint_text() {
+  const auto wrong = [](const std::string& text) {
+    const Status valid = validate_endpoint(text);
+    return valid ? std::string() : valid.error().message();
+  };
+  return CLI::Validator(wrong, "tcp://HOST:PORT");
+}
 
 Result<ControlClient> connect(const Arguments& arguments) {
   if (!arguments.controller.empty()) return ControlClient::connect(arguments.controller);
@@ -94,20 +104,23 @@ Status change_roi(const Arguments& arguments) {
   return {};
 }
 
+using Ao = proto::AmbientOcclusion;
+const std::map<std::string, Ao::Generator> kGenerators{{"poisson-disk", Ao::POISSON_DISK},
+                                                       {"uniform", Ao::UNIFORM},
+                                                       {"jittered", Ao::JITTERED},
+                                                       {"latin-square", Ao::LATIN_SQUARE}};
+const std::map<std::string, Ao::Target> kTargets{{"ambient-light", Ao::AMBIENT_LIGHT},
+                                                 {"whole-color", Ao::WHOLE_COLOR}};
+
 template <class Enumeration>
-Result<Enumeration> parse_name(const char* option, const std::string& text,
-                               const std::vector<std::pair<std::string, Enumeration>>& names) {
-  std::vector<std::string> known;
-  for (const auto& [name, value] : names) {
-    if (name == text) return value;
-    known.push_back(name);
-  }
-  return Error(fmt::format("{}: \"{}\"; {} are possible", option, text, fmt::join(known, ", ")));
+std::vector<std::string> names_of(const std::map<std::string, Enumeration>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
 }
 
 // The numbers given replace those in `ao`; the others stay.
-Status merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
-  using Ao = proto::AmbientOcclusion;
+void merge_ao(const Arguments& arguments, Ao& ao) {
   if (arguments.ao_enabled) ao.set_enabled(*arguments.ao_enabled);
   if (arguments.ao_radius_m) ao.set_radius_m(*arguments.ao_radius_m);
   if (arguments.ao_shell) ao.set_shell(*arguments.ao_shell);
@@ -116,28 +129,15 @@ Status merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   if (arguments.ao_symmetric) ao.set_point_symmetric(*arguments.ao_symmetric);
   if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
   if (arguments.ao_sigma_px) ao.mutable_blur()->set_sigma_px(*arguments.ao_sigma_px);
-  if (!arguments.ao_generator.empty()) {
-    LFD_TRY(const auto generator, parse_name<Ao::Generator>("--generator", arguments.ao_generator,
-                                                            {{"poisson-disk", Ao::POISSON_DISK},
-                                                             {"uniform", Ao::UNIFORM},
-                                                             {"jittered", Ao::JITTERED},
-                                                             {"latin-square", Ao::LATIN_SQUARE}}));
-    ao.set_generator(generator);
-  }
-  if (!arguments.ao_target.empty()) {
-    LFD_TRY(const auto target,
-            parse_name<Ao::Target>("--target", arguments.ao_target,
-                                   {{"ambient-light", Ao::AMBIENT_LIGHT}, {"whole-color", Ao::WHOLE_COLOR}}));
-    ao.set_target(target);
-  }
-  return {};
+  if (!arguments.ao_generator.empty()) ao.set_generator(kGenerators.at(arguments.ao_generator));
+  if (!arguments.ao_target.empty()) ao.set_target(kTargets.at(arguments.ao_target));
 }
 
 Status change_ao(const Arguments& arguments) {
   LFD_TRY(const proto::Status status, ask_status(arguments));
   proto::Request request;
   *request.mutable_ao() = status.render().ao();
-  LFD_TRY_STATUS(merge_ao(arguments, *request.mutable_ao()));
+  merge_ao(arguments, *request.mutable_ao());
   LFD_TRY(const proto::Reply reply, ask(arguments, request));
   return {};
 }
@@ -151,23 +151,23 @@ Status change_scene(const Arguments& arguments) {
 }
 
 Status quit(const Arguments& arguments) {
-  proto::Request request;
-  request.mutable_quit();
-  LFD_TRY(const proto::Reply reply, ask(arguments, request));
-  return {};
+  LFD_TRY(ControlClient client, connect(arguments));
+  return client.quit(kAnswerPatience);
 }
 
 void add_ao_options(CLI::App& command, Arguments& a) {
-  command.add_flag("--on,!--off", a.ao_enabled, "Switch it");
-  command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)");
-  command.add_option("--samples", a.ao_samples, "Samples per radius, 1 to 256");
-  command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...), 1 to 8");
-  command.add_option("--shell", a.ao_shell, "Inner radius of the shell of samples over the outer one, 0 to 1");
-  command.add_option("--generator", a.ao_generator, "poisson-disk, uniform, jittered or latin-square");
-  command.add_option("--target", a.ao_target, "ambient-light or whole-color");
-  command.add_flag("--symmetric,!--no-symmetric", a.ao_symmetric, "Samples in pairs that mirror each other");
-  command.add_flag("--blur,!--no-blur", a.ao_blur, "Blur what was sampled");
-  command.add_option("--sigma", a.ao_sigma_px, "Of the blur, pixels");
+  add_switch(command, "--on", "--off", a.ao_enabled, "Switch it on");
+  command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)")
+      ->check(number_within(0, 1e30));
+  command.add_option("--samples", a.ao_samples, "Samples per radius")->check(CLI::Range(1, 256));
+  command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...)")->check(CLI::Range(1, 8));
+  command.add_option("--shell", a.ao_shell, "Inner radius of the shell of samples over the outer one")
+      ->check(number_within(0, 1));
+  command.add_option("--generator", a.ao_generator, "Of the samples")->check(CLI::IsMember(names_of(kGenerators)));
+  command.add_option("--target", a.ao_target, "What is darkened")->check(CLI::IsMember(names_of(kTargets)));
+  add_switch(command, "--symmetric", "--no-symmetric", a.ao_symmetric, "Samples in pairs that mirror each other");
+  add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
+  command.add_option("--sigma", a.ao_sigma_px, "Of the blur, pixels")->check(number_within(0.1, 8));
 }
 
 }  // namespace
@@ -177,29 +177,27 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   Arguments& a = *arguments;
   CLI::App* ctl = app.add_subcommand("ctl", "Look at a running cluster, or change what it shows");
   ctl->require_subcommand(1);
-  ctl->add_option("--controller", a.controller,
-                  "Control endpoint (default: the only cluster that `lfd run` runs here)");
+  ctl->add_option("--controller", a.controller, "Control endpoint (default: the only cluster that `lfd run` runs here)")
+      ->check(endpoint_text());
   const auto add = [&](const char* name, const char* description, Status (*what)(const Arguments&)) {
     CLI::App* command = add_command(*ctl, name, description, exit_code, [arguments, what] {
       const Status done = what(*arguments);
-      return done ? kExitDone : fail(done.error());
+      return done ? end_of_output() : fail(done.error());
     });
     command->fallthrough();  // --controller may stand behind the subcommand too
     return command;
   };
   add("status", "Print what is shown, and who takes part", print_status);
   CLI::App* roi = add("roi", "Change the region of interest, or print it", change_roi);
-  roi->add_option("WORLD", a.roi, "cx,cy,cz,sx,sy,sz: centre and edge lengths in the world, metres (default: as it is)")
-      ->delimiter(',')
-      ->expected(6);
-  roi->add_option("--physical", a.physical_roi, "The same box in physical space (default: fitted to the screen)")
-      ->delimiter(',')
-      ->expected(6);
-  roi->add_option("--orientation", a.orientation,
-                  "w,x,y,z: unit quaternion that turns the box's axes into the world's (default: as it is)")
-      ->delimiter(',')
-      ->expected(4);
-  roi->add_flag("--whole", a.whole, "Show the whole scene, unturned");
+  CLI::Option* world =
+      add_numbers(*roi, "WORLD", a.roi, kBoxForm, "Centre and edge lengths in the world, metres (default: as it is)");
+  CLI::Option* physical = add_numbers(*roi, "--physical", a.physical_roi, kBoxForm,
+                                      "The same box in physical space (default: fitted to the screen)");
+  CLI::Option* orientation =
+      add_numbers(*roi, "--orientation", a.orientation, "W,X,Y,Z",
+                  "Unit quaternion that turns the box's axes into the world's (default: as it is)");
+  roi->add_flag("--whole", a.whole, "Show the whole scene, unturned, fitted to the screen")
+      ->excludes(world, physical, orientation);
   add_ao_options(*add("ao", "Change ambient occlusion; what is not given stays", change_ao), a);
   add("scene", "Show another scene; if it cannot be loaded the old one stays", change_scene)
       ->add_option("FILE", a.scene, "glTF file, as the controller's machine sees it")

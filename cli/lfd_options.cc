@@ -20,11 +20,8 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
   command.add_option("DEPLOYMENT", options.deployment, "Deployment file (*.textproto)")->required();
   command.add_option("--scene", options.scene, "Show this glTF file instead of the deployment's scene");
   command.add_option("--display", options.display, "Use this calibration file instead of the deployment's");
-  command
-      .add_option("--roi", options.roi,
-                  "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)")
-      ->delimiter(',')
-      ->expected(6);
+  add_numbers(command, "--roi", options.roi, kBoxForm,
+              "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
   command
       .add_option("--plan", options.plan,
                   "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need; default: the "
@@ -33,8 +30,7 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
   command.add_flag("--no-ao", options.no_ao, "Without ambient occlusion");
   command.add_flag("--accept-calibration", options.accept_calibration,
                    "Show the display even where its calibration misses the limits of `lfd-calibrate check`");
-  command.add_option("--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)")
-      ->delimiter(',');
+  add_list(command, "--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)");
   add_log_level(command, options.log_level)->description("Of all processes: trace, debug, info, warn, error or off");
 }
 

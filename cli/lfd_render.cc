@@ -43,10 +43,29 @@ std::string progress(const proto::Status& status, std::uint32_t frames) {
   return fmt::format("frame {} of {}", status.frame(), frames);
 }
 
+// Why there is nothing to wait for any more, if so.
+Status still_running(Cluster& cluster, StopSignals& signals) {
+  if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
+  if (!cluster.has_ended()) return {};
+  LFD_TRY_STATUS(cluster.quit_or_failed(kStopPatience));
+  return Error("the controller was asked to end before the frames were drawn");
+}
+
+// Sends the request once the controller is there, while it watches the children and the signals; its number.
+Result<std::uint64_t> send_request(const RenderOptions& options, Cluster& cluster, ControlClient& client,
+                                   StopSignals& signals) {
+  const auto deadline = Clock::now() + kAnswerPatience;
+  while (true) {
+    const auto id = client.send(frames_request(options), kLook);
+    if (id || Clock::now() >= deadline) return id;
+    LFD_TRY_STATUS(still_running(cluster, signals));
+  }
+}
+
 // Waits for the reply to the frames request, while it watches the children and the signals.
 Result<proto::Reply> await_frames(const RenderOptions& options, Cluster& cluster, ControlClient& client,
                                   ControlClient& watcher, StopSignals& signals) {
-  LFD_TRY(const std::uint64_t id, client.send(frames_request(options), kAnswerPatience));
+  LFD_TRY(const std::uint64_t id, send_request(options, cluster, client, signals));
   auto next_progress = Clock::now() + kProgress;
   std::string last;
   while (true) {
@@ -54,8 +73,7 @@ Result<proto::Reply> await_frames(const RenderOptions& options, Cluster& cluster
       if (!reply->error().empty()) return Error(reply->error());
       return *std::move(reply);
     }
-    if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
-    if (const auto ended = cluster.ended()) return Error(*ended);
+    LFD_TRY_STATUS(still_running(cluster, signals));
     if (Clock::now() < next_progress) continue;
     next_progress = Clock::now() + kProgress;
     const auto status = ask_status(watcher);
@@ -66,11 +84,11 @@ Result<proto::Reply> await_frames(const RenderOptions& options, Cluster& cluster
   }
 }
 
-// The controller may be gone before its reply has left; whether it ended is seen by its process.
-Status say_quit(ControlClient& client) {
-  proto::Request quit;
-  quit.mutable_quit();
-  LFD_TRY([[maybe_unused]] const std::uint64_t id, client.send(quit, kAnswerPatience));
+// Makes the output folder, and takes away what an earlier render left there.
+Status prepare_folder(const std::filesystem::path& folder) {
+  LFD_TRY_STATUS(make_folder(folder));
+  LFD_TRY(const int frames, remove_frames(folder));
+  if (frames > 0) std::cerr << fmt::format("{}: {} frames of an earlier render are removed\n", folder.string(), frames);
   return {};
 }
 
@@ -103,11 +121,13 @@ Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals
   LFD_TRY(const proto::Reply reply, await_frames(options, cluster, client, watcher, signals));
   LFD_TRY(const proto::Status status, ask_status(watcher));
   const std::vector<proto::FrameReport> frames(reply.frame().begin(), reply.frame().end());
-  LFD_TRY_STATUS(
-      write_file(options.cluster.images / "report.json", report_json(cluster.deployment(), status.scene(), frames)));
-  LFD_TRY_STATUS(say_quit(client));
+  const std::vector<std::string> warnings = warnings_of(frames, cluster.modules().size());
+  LFD_TRY_STATUS(write_file(report_path(options.cluster.images),
+                            report_json(cluster.deployment(), status.scene(), frames, warnings)));
+  LFD_TRY_STATUS(client.quit(kAnswerPatience));
   LFD_TRY_STATUS(cluster.finish(kWriteOut));
   std::cerr << time_table(frames);
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << "\n";
   return check_images(options, cluster, frames);
 }
 
@@ -133,7 +153,10 @@ void add_render_command(CLI::App& app, int& exit_code) {
     if (!buffers) return wrong_use(buffers.error());
     arguments->options.buffers = *buffers;
     const RenderOptions& options = arguments->options;
-    const int code = do_with_cluster(options.cluster, [&](StopSignals& signals) { return render(options, signals); });
+    const int code = do_with_cluster(options.cluster, [&](StopSignals& signals) -> Status {
+      LFD_TRY_STATUS(prepare_folder(options.cluster.images));
+      return render(options, signals);
+    });
     if (code == kExitDone)
       std::cout << fmt::format("{} frames in {}\n", options.frames, options.cluster.images.string());
     return code;
@@ -144,9 +167,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_option("--out", options.cluster.images, "Folder for images and report.json")->required();
-  command
-      ->add_option("--buffers", arguments->buffers, "color,position,normal,ao,depth: what is written (color always is)")
-      ->delimiter(',');
+  add_list(*command, "--buffers", arguments->buffers,
+           "color,position,normal,ao,depth: what is written (color always is)");
   command->add_flag("--time-modules", options.time_modules, "Report times for each module by itself (slower)");
 }
 

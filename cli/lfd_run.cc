@@ -13,6 +13,7 @@ namespace {
 constexpr auto kLong = std::chrono::hours(1);  // to wait at a time
 
 Status run(const ClusterOptions& options, StopSignals& signals) {
+  LFD_TRY_STATUS(make_runtime_folder());
   LFD_TRY(Cluster cluster, Cluster::start(options));
   std::error_code failure;
   const auto full_path = std::filesystem::absolute(options.deployment, failure);
@@ -25,12 +26,10 @@ Status run(const ClusterOptions& options, StopSignals& signals) {
       cluster.stop(kStopPatience);
       return {};
     }
-    if (const auto ended = cluster.ended()) {
-      // After a client's quit all of them end by themselves, and well.
-      const Status finished = cluster.finish(kStopPatience);
+    if (cluster.has_ended()) {
+      const Status done = cluster.quit_or_failed(kStopPatience);
       cluster.stop(kStopPatience);
-      if (finished) return {};
-      return Error(*ended);
+      return done;
     }
   }
 }

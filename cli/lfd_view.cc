@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/file.h"
 #include "base/log.h"
 #include "cli/lfd_commands.h"
 #include "proto/frame_files.h"
@@ -50,13 +51,16 @@ Status look(const Arguments& arguments, const fs::path& frame, StopSignals& sign
       .name = "view",
       .command = {own_folder() / "lfd-display", "view", "--frames-dir", frame, "--display", deployment.display_file,
                   fmt::format("--eye={}", fmt::join(arguments.eye, ",")), "--out", arguments.out},
-      .on_line = [](std::string_view line) { std::cerr << line << std::endl; },
+      .on_line =
+          [](std::string_view line) {
+            if (!line.starts_with(kErrorMark)) std::cerr << line << std::endl;
+          },
       .environment = {}};
   LFD_TRY(const auto process, Process::start(std::move(options)));
   const auto deadline = Clock::now() + kViewPatience;
   while (Clock::now() < deadline) {
     if (const auto exit = process->wait(std::chrono::milliseconds(50))) {
-      return exit->succeeded() ? Status() : Status(Error("lfd-display view: " + exit->text()));
+      return exit->succeeded() ? Status() : Status(Error("lfd-display view: " + last_words(*process)));
     }
     if (const auto signal = signals.take()) return Error(fmt::format("ended by signal {}", *signal));
   }
@@ -83,15 +87,15 @@ void add_view_command(CLI::App& app, int& exit_code) {
   CLI::App* command = add_command(app, "view", "Write what a viewer at a place sees", exit_code, [arguments] {
     if (!(arguments->eye[2] > 0))
       return wrong_use(Error("--eye: z must be > 0: a viewer stands in front of the screen"));
+    if (const Status writable = check_writable(arguments->out); !writable) return fail(writable.error());
     return do_with_cluster(arguments->cluster, [&](StopSignals& signals) { return view(*arguments, signals); });
   });
   add_cluster_options(*command, arguments->cluster);
-  command->add_option("--eye", arguments->eye, "X,Y,Z of the eye in physical metres (z: distance from the screen)")
-      ->required()
-      ->delimiter(',')
-      ->expected(3);
+  add_numbers(*command, "--eye", arguments->eye, "X,Y,Z", "Of the eye in physical metres (z: distance from the screen)")
+      ->required();
   command->add_option("--out", arguments->out, "PNG file to write")->required();
-  command->add_option("--frames-dir", arguments->frames, "Use images that `lfd render` wrote to this folder");
+  command->add_option("--frames-dir", arguments->frames,
+                      "Use images that `lfd render` wrote: the folder of a frame, or its parent (then frame 0)");
 }
 
 }  // namespace lfd

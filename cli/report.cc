@@ -53,41 +53,86 @@ Json frame_json(const proto::FrameReport& frame) {
   return json;
 }
 
+// The node handed its last images out again.
+bool is_unchanged(const proto::NodeReport& node) {
+  return std::ranges::any_of(node.left_out(), [](const proto::LeftOut& left_out) {
+    return left_out.what() == "module" && left_out.which() == "all";
+  });
+}
+
+std::size_t modules_left_out(const proto::FrameReport& frame) {
+  std::size_t count = 0;
+  for (const proto::NodeReport& node : frame.node()) {
+    count += static_cast<std::size_t>(std::ranges::count_if(node.left_out(), [](const proto::LeftOut& left_out) {
+      return left_out.what() == "module" && left_out.which() != "all";
+    }));
+  }
+  return count;
+}
+
 }  // namespace
 
 std::string report_json(const Deployment& deployment, const std::string& scene,
-                        const std::vector<proto::FrameReport>& frames) {
+                        const std::vector<proto::FrameReport>& frames, const std::vector<std::string>& warnings) {
   Json json{{"version", kVersion},
             {"protocol", kProtocolVersion},
             {"deployment", deployment.message.name()},
             {"display", deployment.display.name},
             {"scene", scene},
+            {"warnings", warnings},
             {"frames", Json::array()}};
   for (const proto::FrameReport& frame : frames) json["frames"].push_back(frame_json(frame));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string time_table(const std::vector<proto::FrameReport>& frames) {
-  std::map<std::string, std::vector<std::pair<std::string, std::pair<double, double>>>> nodes;  // passes in their order
+std::vector<std::string> warnings_of(const std::vector<proto::FrameReport>& frames, std::size_t modules) {
+  std::vector<std::string> warnings;
+  const auto add = [&](const std::string& warning) {
+    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+  };
   for (const proto::FrameReport& frame : frames) {
+    bool explained = false;
     for (const proto::NodeReport& node : frame.node()) {
-      auto& passes = nodes[node.node()];
-      for (const proto::PassTime& pass : node.pass()) {
-        auto known = std::ranges::find_if(passes, [&](const auto& entry) { return entry.first == pass.pass(); });
-        if (known == passes.end()) known = passes.insert(passes.end(), {pass.pass(), {0, 0}});
+      explained = explained || node.warning_size() > 0;
+      for (const std::string& warning : node.warning()) add(warning);
+    }
+    if (!explained && frame.node_size() > 0 && modules_left_out(frame) == modules)
+      add("nothing of the scene is seen: no module has any of it in its view");
+  }
+  return warnings;
+}
+
+std::string time_table(const std::vector<proto::FrameReport>& frames) {
+  struct Node {
+    int frames = 0, drawn = 0;
+    std::vector<std::pair<std::string, std::pair<double, double>>> passes;  // in their order: GPU and CPU
+  };
+  std::map<std::string, Node> nodes;
+  for (const proto::FrameReport& frame : frames) {
+    for (const proto::NodeReport& report : frame.node()) {
+      Node& node = nodes[report.node()];
+      ++node.frames;
+      if (is_unchanged(report)) continue;
+      ++node.drawn;
+      for (const proto::PassTime& pass : report.pass()) {
+        auto known = std::ranges::find_if(node.passes, [&](const auto& entry) { return entry.first == pass.pass(); });
+        if (known == node.passes.end()) known = node.passes.insert(node.passes.end(), {pass.pass(), {0, 0}});
         known->second.first += pass.gpu_ms();
         known->second.second += pass.cpu_ms();
       }
     }
   }
   std::string table = fmt::format("{:<16} {:<20} {:>10} {:>10}\n", "node", "pass", "gpu ms", "cpu ms");
-  const double count = frames.empty() ? 1 : static_cast<double>(frames.size());
-  for (const auto& [node, passes] : nodes) {
-    for (const auto& [pass, sums] : passes) {
-      table += fmt::format("{:<16} {:<20} {:>10.3f} {:>10.3f}\n", node, pass, sums.first / count, sums.second / count);
+  std::string counts;
+  for (const auto& [name, node] : nodes) {
+    for (const auto& [pass, sums] : node.passes) {
+      table += fmt::format("{:<16} {:<20} {:>10.3f} {:>10.3f}\n", name, pass, sums.first / node.drawn,
+                           sums.second / node.drawn);
     }
+    counts += fmt::format("{} {} of {}", counts.empty() ? "" : ",", node.drawn, node.frames);
+    if (!name.empty()) counts += " by " + name;
   }
-  return table;
+  return table + fmt::format("mean of the frames that were drawn:{}; the others repeat unchanged ones\n", counts);
 }
 
 }  // namespace lfd

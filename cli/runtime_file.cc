@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 
 #include "base/file.h"
@@ -15,6 +17,7 @@ namespace lfd {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kFolderWithout = "/tmp";  // without XDG_RUNTIME_DIR
 constexpr std::string_view kExtension = ".endpoint";
 
 // A file outlives a process that was killed, and process ids are used again: only a process of this program counts.
@@ -56,15 +59,22 @@ std::optional<RunningCluster> read_entry(const fs::path& path) {
 
 fs::path runtime_folder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  const fs::path base = runtime != nullptr && *runtime != '\0' ? runtime : "/tmp";
+  const fs::path base = runtime != nullptr && *runtime != '\0' ? runtime : kFolderWithout;
   return base / fmt::format("lfd-{}", ::getuid());
 }
 
-Result<RuntimeFile> RuntimeFile::write(const std::string& endpoint, const std::string& deployment) {
+Status make_runtime_folder() {
   const fs::path folder = runtime_folder();
-  ::mkdir(folder.c_str(), 0700);
-  LFD_TRY_STATUS(own_folder_only(folder));
-  const fs::path path = folder / fmt::format("{}{}", ::getpid(), kExtension);
+  const int made = ::mkdir(folder.c_str(), 0700);
+  const std::string reason = std::strerror(errno);
+  Status usable = own_folder_only(folder);
+  if (made != 0 && !fs::exists(folder)) usable = Error(fmt::format("{}: cannot be made: {}", folder.string(), reason));
+  if (usable || folder.parent_path() == kFolderWithout) return usable;
+  return usable.error().within("XDG_RUNTIME_DIR");
+}
+
+Result<RuntimeFile> RuntimeFile::write(const std::string& endpoint, const std::string& deployment) {
+  const fs::path path = runtime_folder() / fmt::format("{}{}", ::getpid(), kExtension);
   LFD_TRY_STATUS(write_file(path, endpoint + "\n" + deployment + "\n"));
   return RuntimeFile(path);
 }

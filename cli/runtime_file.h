@@ -18,6 +18,9 @@ struct RunningCluster {
 // ${XDG_RUNTIME_DIR:-/tmp}/lfd-<user id>
 std::filesystem::path runtime_folder();
 
+// Makes that folder, which is this user's alone. The error names the variable where it is the reason.
+Status make_runtime_folder();
+
 // The file of this process; it is removed with the object.
 class RuntimeFile {
  public:

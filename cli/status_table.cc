@@ -36,7 +36,7 @@ std::string status_table(const proto::Status& status) {
   line("deployment", status.deployment());
   line("scene", status.scene());
   line("frame", std::to_string(status.frame()));
-  line("frames per second", fmt::format("{:.2f}", status.frames_per_second()));
+  line("frames per second", fmt::format("{:.2f} (unchanged ones included)", status.frames_per_second()));
   line("late frames", std::to_string(status.late_frames()));
   line("stale modules", std::to_string(status.stale_modules()));
   line("state", fmt::format("{} (update {})", status.state_hash(), status.sequence()));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/command_line.h"
+#include "base/file.h"
 #include "base/log.h"
 #include "controller/scene/loaded_scene.h"
 #include "controller/scene/made/made_scenes.h"
@@ -13,12 +14,15 @@
 namespace lfd {
 namespace {
 
+constexpr double kLeastExtent_m = 1e-6, kMostExtent_m = 1e6;
+
 int list() {
   for (const scene::MadeScene& made : scene::made_scenes()) fmt::print("{:<14} {}\n", made.name, made.description);
-  return kExitDone;
+  return end_of_output();
 }
 
 int make(const std::string& name, std::uint64_t seed, scene::Extent extent, const std::string& out) {
+  if (const Status writable = check_writable(out); !writable) return fail(writable.error());
   const Result<LoadedScene> made = scene::make_scene(name, seed, extent);
   if (!made) return fail(made.error());
   const Status written = scene::write_glb(out, made->data);
@@ -64,7 +68,7 @@ int info(const std::string& file) {
     fmt::print("{} animation channels, {:g} s\n", loaded->animations.channel_count(), loaded->animations.duration_s());
   }
   for (const std::string& warning : loaded->warnings) fmt::print("warning: {}\n", warning);
-  return kExitDone;
+  return end_of_output();
 }
 
 int run(int argc, char** argv) {
@@ -85,9 +89,13 @@ int run(int argc, char** argv) {
   for (const scene::MadeScene& made : scene::made_scenes()) names.push_back(made.name);
   make_command->add_option("name", name, "One of `lfd-scene list`")->required()->check(CLI::IsMember(names));
   make_command->add_option("--out", out, "File to write")->required();
-  make_command->add_option("--seed", seed, "Seed of textures and shapes")->capture_default_str();
-  make_command->add_option("--width", extent.width_m, "Metres along x (not of ribbed-shell)")->capture_default_str();
-  make_command->add_option("--height", extent.height_m, "Metres along y (not of ribbed-shell)")->capture_default_str();
+  make_command->add_option("--seed", seed, "Seed of textures and shapes")->check(seed_number())->capture_default_str();
+  make_command->add_option("--width", extent.width_m, "Metres along x (not of ribbed-shell)")
+      ->check(number_within(kLeastExtent_m, kMostExtent_m))
+      ->capture_default_str();
+  make_command->add_option("--height", extent.height_m, "Metres along y (not of ribbed-shell)")
+      ->check(number_within(kLeastExtent_m, kMostExtent_m))
+      ->capture_default_str();
   std::string file;
   CLI::App* info_command =
       app.add_subcommand("info",

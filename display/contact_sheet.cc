@@ -53,7 +53,7 @@ Result<Picture8> contact_sheet(std::span<const Picture8* const> images, int tile
       return Error(fmt::format("module {}: its image has another size than the others", m));
     }
   }
-  const int count = static_cast<int>(images.size());
+  const int count = static_cast<int>(images.size() - std::ranges::count(images, nullptr));
   const int columns = static_cast<int>(std::ceil(std::sqrt(double(count))));
   const int rows = (count + columns - 1) / columns;
   if (tile_width_px < 1 || tile_width_px > 8192)
@@ -66,10 +66,12 @@ Result<Picture8> contact_sheet(std::span<const Picture8* const> images, int tile
     return Error(fmt::format("a sheet of {} x {} pixels is too large", width, height));
   Picture8 sheet = black_picture(static_cast<int>(width), static_cast<int>(height));
   for (std::size_t at = 0; at < sheet.rgba.size(); ++at) sheet.rgba[at] = at % 4 == 3 ? 255 : kLineGray;
-  for (int m = 0; m < count; ++m) {
-    if (images[m] == nullptr) continue;
-    put_tile(*images[m], tile_width_px, tile_height_px, kLine_px + (m % columns) * (tile_width_px + kLine_px),
-             kLine_px + (m / columns) * (tile_height_px + kLine_px), sheet);
+  int tile = 0;
+  for (const Picture8* image : images) {
+    if (image == nullptr) continue;
+    put_tile(*image, tile_width_px, tile_height_px, kLine_px + (tile % columns) * (tile_width_px + kLine_px),
+             kLine_px + (tile / columns) * (tile_height_px + kLine_px), sheet);
+    ++tile;
   }
   return sheet;
 }

@@ -9,7 +9,7 @@
 namespace lfd::display {
 
 // Tiles of `tile_width_px` with the images' aspect ratio, averaged in linear light, with thin gray lines between them;
-// a module without an image (null) is left gray. Errors: no image at all, images of different sizes, a sheet of absurd
+// modules without an image (null) have no tile. Errors: no image at all, images of different sizes, a sheet of absurd
 // size.
 Result<Picture8> contact_sheet(std::span<const Picture8* const> images, int tile_width_px);
 

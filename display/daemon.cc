@@ -61,6 +61,7 @@ class Daemon {
   FrameAssembly assembly_;
   std::map<std::string, std::string> peer_of_node_;
   bool welcome_ = false, ended_ = false;
+  bool told_shown_ = true;  // the controller could be told of the last frame
   Clock::duration heartbeat_ = 500ms;
   Clock::time_point next_words_{}, last_heard_{}, last_warning_{};
   std::uint64_t refused_images_ = 0;
@@ -173,9 +174,11 @@ void Daemon::hear_images() {
     const auto& envelope = message->envelope;
     if (envelope.has_hello()) hello(message->peer, envelope.hello().node());
     if (!envelope.has_image()) continue;
+    const bool past = assembly_.is_past(envelope.image().frame());
     const Status status =
         assembly_.image_came(message->peer, envelope.image(), std::move(message->payload), Clock::now());
-    if (!status) warn_of_image(status.error());
+    if (!status && past) log::debug("{}", status.error().message());  // as where a node joins before the display
+    if (!status && !past) warn_of_image(status.error());
   }
 }
 
@@ -209,8 +212,9 @@ void Daemon::say_shown(std::uint64_t frame, int fresh_modules) {
   proto::Envelope shown;
   shown.mutable_shown()->set_frame(frame);
   shown.mutable_shown()->set_modules(static_cast<std::uint32_t>(fresh_modules));
-  if (const Status sent = control_.send(shown); !sent)
-    log::warn("frame {} is shown, but: {}", frame, sent.error().message());
+  const Status sent = control_.send(shown);
+  if (!sent && told_shown_) log::warn("frame {} is shown, but: {}", frame, sent.error().message());
+  told_shown_ = static_cast<bool>(sent);
 }
 
 void Daemon::give_credits() {

@@ -56,7 +56,7 @@ Status FrameAssembly::check(const Node& node, const proto::Image& what, std::siz
     return Error("its format is not that of its buffer");
   if (what.of_images() < 1 || what.of_images() > kMaxImagesPerFrame)
     return Error(fmt::format("it is one of {}", what.of_images()));
-  if (last_shown_ && what.frame() <= *last_shown_) return Error(fmt::format("frame {} is past", *last_shown_));
+  if (is_past(what.frame())) return Error(fmt::format("frame {} is past", *last_shown_));
   // A swap makes a place for its frame; where there is none any more, the frame has been given up.
   if (latest_swap_ && what.frame() <= *latest_swap_ && !pending_.contains(what.frame()))
     return Error("its frame was dropped");

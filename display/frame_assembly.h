@@ -64,6 +64,8 @@ class FrameAssembly {
   // Facts. `node` is any name that stays the same while the node is connected.
   void node_came(const std::string& node);
   void node_left(const std::string& node);
+  // A later frame has been shown already: its images are of no use.
+  bool is_past(std::uint64_t frame) const { return last_shown_ && frame <= *last_shown_; }
   // An error says why the image was left out; everything else goes on.
   Status image_came(const std::string& node, const proto::Image& what, wire::Payload pixels, Clock::time_point now);
   void swapped(std::uint64_t frame, std::span<const std::uint32_t> stale_modules);

@@ -1,7 +1,9 @@
 // lfd-display: the virtual display, and what can be made of the frames that it wrote.
 #include <cmath>
+#include <numbers>
 
 #include "base/command_line.h"
+#include "base/file.h"
 #include "base/log.h"
 #include "display/contact_sheet.h"
 #include "display/daemon.h"
@@ -26,19 +28,32 @@ struct SheetOptions {
   int tile_width_px = 240;
 };
 
+void warn_of_missing(const std::vector<std::optional<Picture8>>& pictures) {
+  std::vector<std::size_t> missing;
+  for (std::size_t module = 0; module < pictures.size(); ++module) {
+    if (!pictures[module]) missing.push_back(module);
+  }
+  if (!missing.empty()) log::warn("without the pictures of modules {}, which are not there", fmt::join(missing, ", "));
+}
+
 Status view(const ViewOptions& options) {
+  LFD_TRY_STATUS(check_writable(options.out));
   LFD_TRY(const DisplayCalibration display, load_calibration(options.display_file));
   LFD_TRY(const auto pictures, read_color_images(options.frame_folder, static_cast<int>(display.modules.size())));
   const int width = options.width_px > 0 ? options.width_px : display.image.width;
   const double shape = display.screen.height_m / display.screen.width_m;
   const int height =
       options.height_px > 0 ? options.height_px : std::max(1, static_cast<int>(std::lround(width * shape)));
+  warn_of_missing(pictures);
   const Eye eye{options.eye[0], options.eye[1], options.eye[2]};
+  if (const double away = nearest_light_rad(display, eye); away > display.angular_scattering_rad)
+    log::warn("no module lights this eye: the nearest is {:.1f} degrees away", away * 180 / std::numbers::pi);
   LFD_TRY(const Picture8 picture, viewer_picture(display, pointers_to(pictures), eye, width, height));
   return write_png(options.out, picture, PngChannels::kRgb);
 }
 
 Status sheet(const SheetOptions& options) {
+  LFD_TRY_STATUS(check_writable(options.out));
   LFD_TRY(const auto pictures, read_color_images(options.frame_folder));
   LFD_TRY(const Picture8 picture, contact_sheet(pointers_to(pictures), options.tile_width_px));
   return write_png(options.out, picture, PngChannels::kRgb);
@@ -62,14 +77,15 @@ void add_view(CLI::App& app, ViewOptions& options) {
   auto* command = app.add_subcommand("view", "Write what a viewer sees of a frame that was written with --out");
   command->add_option("--frames-dir", options.frame_folder, "The frame's folder, e.g. out/frame-0000")->required();
   command->add_option("--display", options.display_file, "Calibration file of the display (*.textproto)")->required();
-  command->add_option("--eye", options.eye, "X,Y,Z of the eye in physical metres; z is the distance from the screen")
-      ->required()
-      ->delimiter(',')
-      ->expected(3);
+  add_numbers(*command, "--eye", options.eye, "X,Y,Z",
+              "Of the eye in physical metres; z is the distance from the screen")
+      ->required();
   command->add_option("--out", options.out, "PNG file to write")->required();
-  command->add_option("--width", options.width_px,
-                      "Pixels over the screen's width (default: those of a module's image)");
-  command->add_option("--height", options.height_px, "Pixels over the screen's height (default: square pixels)");
+  command
+      ->add_option("--width", options.width_px, "Pixels over the screen's width (default: those of a module's image)")
+      ->check(CLI::Range(1, 8192));
+  command->add_option("--height", options.height_px, "Pixels over the screen's height (default: square pixels)")
+      ->check(CLI::Range(1, 8192));
 }
 
 void add_sheet(CLI::App& app, SheetOptions& options) {
@@ -77,7 +93,9 @@ void add_sheet(CLI::App& app, SheetOptions& options) {
       app.add_subcommand("sheet", "Put all modules of a frame that was written with --out into one picture");
   command->add_option("--frames-dir", options.frame_folder, "The frame's folder, e.g. out/frame-0000")->required();
   command->add_option("--out", options.out, "PNG file to write")->required();
-  command->add_option("--tile-width", options.tile_width_px, "Pixels over each module's width")->capture_default_str();
+  command->add_option("--tile-width", options.tile_width_px, "Pixels over each module's width")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
 }
 
 int main_of_display(int argc, char** argv) {

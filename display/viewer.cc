@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "base/log.h"
@@ -131,6 +132,16 @@ double log_weight(const DisplayCalibration& display, const ModuleCalibration& mo
     difference = (s.x - e.x) / std::hypot(s.y - e.y, e.z) - (eye.x - s.x) / std::hypot(eye.y - s.y, eye.z);
   }
   return -(difference / sigma) * (difference / sigma);
+}
+
+double nearest_light_rad(const DisplayCalibration& display, const Eye& eye) {
+  constexpr int kColumns = 33;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kColumns; ++i) {
+    const ScreenPoint s{(double(i) / (kColumns - 1) - 0.5) * display.screen.width_m, 0};
+    for (const ModuleCalibration& module : display.modules) best = std::max(best, log_weight(display, module, s, eye));
+  }
+  return std::sqrt(-best) * display.angular_scattering_rad / kSigmaOfScattering;
 }
 
 Result<Picture8> viewer_picture(const DisplayCalibration& display, std::span<const Picture8* const> images,

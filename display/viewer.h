@@ -17,6 +17,11 @@ using Eye = Point3<Physical>;  // z > 0
 //   conical:  -((rho_in - rho_out) / sigma)^2;   sigma = angular_scattering_rad / 1.11741
 double log_weight(const DisplayCalibration& display, const ModuleCalibration& module, ScreenPoint s, const Eye& eye);
 
+// How far the eye is from the nearest direction that any module sends light in, over the whole screen: radians of a
+// linear diffuser, differences of rho (about radians) of a conical one. Beyond a few times the angular scattering
+// nobody would see anything of a real display.
+double nearest_light_rad(const DisplayCalibration& display, const Eye& eye);
+
 // The screen as `eye` sees it, rectified (of a curved one, unrolled): pixel (i, j) is the screen point ((i + 0.5) /
 // width_px - 0.5, 0.5 - (j + 0.5) / height_px) times the screen's size. images[m] is the colour image of module m
 // (sRGB, rows from the top), of the display's image size; null where there is none. Light is blended linearly; modules

@@ -18,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The road to what a command line says in place of the file.
+constexpr const char* kOption = "--";
+
 // An error whose message names things for a person, with the road (proto/text_file.h) to its line beside it.
 struct Fault {
   std::string road;
@@ -157,7 +160,8 @@ Check read_display(const DeploymentOverrides& overrides, Deployment& deployment)
   }
   deployment.display_file = overrides.display.value_or(deployment.folder / deployment.message.display());
   auto display = load_calibration(deployment.display_file);
-  if (!display) return Fault{"display", overrides.display ? display.error() : display.error().within("display")};
+  if (!display && overrides.display) return Fault{kOption, display.error().within("--display")};
+  if (!display) return Fault{"display", display.error().within("display")};
   deployment.display = *std::move(display);
   return std::nullopt;
 }
@@ -197,12 +201,10 @@ Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
   return std::nullopt;
 }
 
-Result<int> parse_number(std::string_view text) {
+std::optional<int> parse_number(std::string_view text) {
   int number = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (failure != std::errc() || end != text.data() + text.size() || number < 0) {
-    return Error(fmt::format("\"{}\" is no module number", text));
-  }
+  if (failure != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
   return number;
 }
 
@@ -210,8 +212,10 @@ Result<int> parse_number(std::string_view text) {
 
 Result<std::vector<int>> parse_module_range(std::string_view text, int module_count) {
   const std::size_t dash = text.find('-');
-  LFD_TRY(const int first, parse_number(text.substr(0, dash)));
-  LFD_TRY(const int last, dash == text.npos ? Result<int>(first) : parse_number(text.substr(dash + 1)));
+  const auto first_number = parse_number(text.substr(0, dash));
+  const auto last_number = dash == text.npos ? first_number : parse_number(text.substr(dash + 1));
+  if (!first_number || !last_number) return Error(fmt::format("\"{}\" is neither a module number nor a range", text));
+  const int first = *first_number, last = *last_number;
   if (last < first) return Error(fmt::format("\"{}\" runs backwards", text));
   if (last >= module_count) return Error(fmt::format("{}; the display has modules 0 to {}", last, module_count - 1));
   std::vector<int> modules(static_cast<std::size_t>(last - first + 1));
@@ -233,7 +237,9 @@ Result<Deployment> load_deployment(const fs::path& path, const DeploymentOverrid
   Deployment deployment;
   LFD_TRY(const TextPlaces places, read_text_file(path, deployment.message));
   deployment.folder = path.parent_path();
-  if (const auto fault = read_parts(overrides, deployment)) return fault->error.within(places.of(fault->road));
+  const auto fault = read_parts(overrides, deployment);
+  if (fault && fault->road == kOption) return fault->error;
+  if (fault) return fault->error.within(places.of(fault->road));
   return deployment;
 }
 

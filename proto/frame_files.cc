@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <regex>
+#include <vector>
 
+#include "base/file.h"
 #include "base/log.h"
 #include "proto/pictures/exr.h"
 #include "proto/pictures/png.h"
@@ -48,6 +51,17 @@ PictureF float_picture(const proto::Image& what, std::string_view pixels) {
   return picture;
 }
 
+// What lies in a folder under such names.
+std::vector<std::filesystem::path> entries_named(const std::filesystem::path& folder, const std::regex& name) {
+  std::vector<std::filesystem::path> found;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    if (std::regex_match(entry->path().filename().string(), name)) found.push_back(entry->path());
+  }
+  return found;
+}
+
 }  // namespace
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, std::uint64_t frame) {
@@ -59,7 +73,32 @@ std::filesystem::path image_path(const std::filesystem::path& folder, std::uint6
   return frame_path(folder, frame) / fmt::format("module-{:03}.{}", module, ending(buffer));
 }
 
+std::filesystem::path report_path(const std::filesystem::path& folder) { return folder / "report.json"; }
+
+Result<int> remove_frames(const std::filesystem::path& folder) {
+  static const std::regex frame_name("frame-[0-9]{4,}");
+  static const std::regex image_name("module-[0-9]{3,}\\.(color\\.png|(position|normal|ao|depth)\\.exr)");
+  std::vector<std::filesystem::path> files;
+  const auto frames = entries_named(folder, frame_name);
+  int with_images = 0;
+  for (const std::filesystem::path& frame : frames) {
+    const auto images = entries_named(frame, image_name);
+    files.insert(files.end(), images.begin(), images.end());
+    if (!images.empty()) ++with_images;
+  }
+  files.push_back(report_path(folder));
+  std::error_code failure;
+  for (const std::filesystem::path& file : files) {
+    std::filesystem::remove(file, failure);
+    if (failure) return Error(fmt::format("{}: {}", file.string(), failure.message()));
+  }
+  // One that holds anything else stays.
+  for (const std::filesystem::path& frame : frames) std::filesystem::remove(frame, failure);
+  return with_images;
+}
+
 Status write_image_file(const std::filesystem::path& path, const proto::Image& what, std::string_view pixels) {
+  LFD_TRY_STATUS(make_folder(path.parent_path()));
   if (what.buffer() == proto::COLOR) return write_png(path, color_picture(what, pixels), PngChannels::kRgb);
   return write_exr(path, float_picture(what, pixels));
 }

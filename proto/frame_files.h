@@ -16,6 +16,13 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, std::uint6
 std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
                                  proto::BufferKind buffer);
 
+// folder/report.json: what was drawn, beside the frames.
+std::filesystem::path report_path(const std::filesystem::path& folder);
+
+// Removes every file of these names from `folder`, and the folders of frames that are empty then; nothing else. How
+// many frames had files.
+Result<int> remove_frames(const std::filesystem::path& folder);
+
 // Writes one image as its header says: colour as PNG (RGB), everything else as EXR (R G B A, float32); an empty image
 // is all background, or all zero. `pixels`: rows from the top. Missing folders are made.
 Status write_image_file(const std::filesystem::path& path, const proto::Image& what, std::string_view pixels);

@@ -45,11 +45,8 @@ int list() {
   return any ? kExitDone : fail(Error("no GPU can be used"));
 }
 
-// Fills in what the command line leaves to the deployment.
-Status complete(Arguments& a) {
-  DeploymentOverrides overrides;
-  if (!a.display.empty()) overrides.display = a.display;
-  LFD_TRY(const Deployment deployment, load_deployment(a.deployment, overrides));
+// Fills in what the command line leaves to the deployment. Errors: it asks for what the deployment does not have.
+Status complete(Arguments& a, const Deployment& deployment) {
   const auto node = std::ranges::find(deployment.nodes, a.options.name, &NodeShare::name);
   if (node == deployment.nodes.end()) {
     return Error(fmt::format("{}: it has no node \"{}\" (--name)", a.deployment, a.options.name));
@@ -71,7 +68,11 @@ Status complete(Arguments& a) {
 int run(Arguments a) {
   StopSignals signals;
   start_log("node " + a.options.name, a.log_level);
-  if (const Status completed = complete(a); !completed) return fail(completed.error());
+  DeploymentOverrides overrides;
+  if (!a.display.empty()) overrides.display = a.display;
+  const auto deployment = load_deployment(a.deployment, overrides);
+  if (!deployment) return fail(deployment.error());
+  if (const Status completed = complete(a, *deployment); !completed) return wrong_use(completed.error());
   auto daemon = Daemon::open(std::move(a.options));
   if (!daemon) return fail(daemon.error());
   const Status ended = (*daemon)->run(signals);

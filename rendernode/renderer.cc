@@ -88,7 +88,22 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   settings_ = settings;
   roi_ = roi;
   geometry_ms_ += milliseconds(Clock::now() - start);
+  if (const std::string why = why_nothing_is_seen(); new_geometry && !why.empty())
+    log::warn("nothing of the scene is seen: {}", why);
   return {};
+}
+
+std::string Renderer::why_nothing_is_seen() const {
+  if (geometry_.items.empty())
+    return fmt::format("no triangle of it lies between z = {:.4g} and {:.4g} m", limits_.back, limits_.front);
+  Point3<Physical> low = geometry_.items.front().low, high = geometry_.items.front().high;
+  for (const GeometryItem& item : geometry_.items) {
+    low = {std::min(low.x, item.low.x), std::min(low.y, item.low.y), low.z};
+    high = {std::max(high.x, item.high.x), std::max(high.y, item.high.y), high.z};
+  }
+  const double pixel_m = display_.screen.width_m / display_.image.width;
+  const double extent_m = std::max(high.x - low.x, high.y - low.y);
+  return extent_m < pixel_m ? fmt::format("it is {:.2g} m wide, less than a pixel", extent_m) : "";
 }
 
 Status Renderer::draw(const FrameOptions& options) {
@@ -215,6 +230,8 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
       if (slot.options.time_modules) pass->add_module(modules_[layer]);
     }
   }
+  if (const std::string why = why_nothing_is_seen(); !why.empty())
+    report.add_warning("nothing of the scene is seen: " + why);
   for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
   if (geometry_.degenerate_triangles > 0) {
     report.add_warning(

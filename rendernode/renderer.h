@@ -82,6 +82,7 @@ class Renderer {
   };
 
   Status rebuild(const proto::State& state, const Assets& assets);
+  std::string why_nothing_is_seen() const;  // empty: something may be
   std::vector<ReadbackItem> wanted(const Slot& slot) const;
   std::vector<ModuleImage> images_of(const Slot& slot) const;
   void append_empty(const Slot& slot, std::vector<ModuleImage>& images) const;

@@ -86,6 +86,16 @@ Status ask_renderer(Renderer& renderer, FrameSubject& subject) {
 
 }  // namespace
 
+Status check_options(const FrameBenchOptions& options) {
+  const int gpus = gl::gpu_count();
+  if (options.gpu >= gpus)
+    return Error(fmt::format("--gpu {}: there are {} (see lfd-rendernode --list-gpus)", options.gpu, gpus));
+  const auto deployment = load_deployment(options.deployment, options.overrides);
+  if (!deployment) return {};
+  if (const auto module = chosen_module(options, deployment->display); !module) return module.error();
+  return {};
+}
+
 Result<FrameTable> frame_bench(const gl::Context& context, const FrameBenchOptions& options) {
   if (options.frames < 1) return Error(fmt::format("frames: {}; at least 1 is needed", options.frames));
   LFD_TRY(const Deployment deployment, load_deployment(options.deployment, options.overrides));

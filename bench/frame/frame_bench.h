@@ -51,6 +51,9 @@ struct FrameTable {
   FrameError error;  // of the frame with ambient occlusion
 };
 
+// Refuses a module or a GPU that is not there; a deployment that cannot be read is left to frame_bench().
+Status check_options(const FrameBenchOptions& options);
+
 // Loads, times, judges; progress goes to the log. Errors: files, numbers that do not fit, the driver.
 Result<FrameTable> frame_bench(const FrameBenchOptions& options);
 

@@ -9,11 +9,24 @@
 namespace lfd {
 namespace {
 
+// Far beyond anything that is shown, and far from where products and quotients of them leave double precision.
+constexpr double kLeastSize_m = 1e-12, kMost_m = 1e12;
+
 Status validate_size(const char* name, glm::dvec3 size) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(size[axis] > 0) || !std::isfinite(size[axis])) {
-      return Error(fmt::format("{}: {} along {} must be positive and finite", name, size[axis], "xyz"[axis]));
-    }
+    if (size[axis] >= kLeastSize_m && size[axis] <= kMost_m) continue;
+    return Error(
+        fmt::format("{}: {} m along {}; {} to {} are possible", name, size[axis], "xyz"[axis], kLeastSize_m, kMost_m));
+  }
+  return {};
+}
+
+template <class S>
+Status validate_centre(const char* name, Point3<S> centre) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = to_glm(centre)[axis];
+    if (std::abs(place) <= kMost_m) continue;
+    return Error(fmt::format("{}: {} m along {}; {} to {} are possible", name, place, "xyz"[axis], -kMost_m, kMost_m));
   }
   return {};
 }
@@ -21,8 +34,8 @@ Status validate_size(const char* name, glm::dvec3 size) {
 }  // namespace
 
 Status validate(const RegionOfInterest& roi) {
-  if (!is_finite(roi.world_centre)) return Error("world_centre: must be finite");
-  if (!is_finite(roi.physical_centre)) return Error("physical_centre: must be finite");
+  LFD_TRY_STATUS(validate_centre("world_centre", roi.world_centre));
+  LFD_TRY_STATUS(validate_centre("physical_centre", roi.physical_centre));
   LFD_TRY_STATUS(validate_size("world_size", roi.world_size));
   LFD_TRY_STATUS(validate_size("physical_size", roi.physical_size));
   const double norm = glm::length(roi.world_orientation);

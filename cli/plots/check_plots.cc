@@ -26,6 +26,7 @@ Status write_check_plots(const std::filesystem::path& folder, const DisplayCalib
   const auto file_of_module = [&](const char* what) {
     return folder / fmt::format("{}-module-{:03}.svg", what, shown);
   };
+  LFD_TRY_STATUS(make_folder(folder));
   LFD_TRY_STATUS(write_file(folder / "overview.svg", plots::overview(display, report)));
   LFD_TRY_STATUS(write_file(folder / "coverage.svg", plots::coverage(display, report)));
   LFD_TRY_STATUS(write_file(file_of_module("warp"), plots::warp(display, shown)));

@@ -63,7 +63,7 @@ Status Daemon::run(StopSignals& signals) {
       if (stage_.has_scene()) serve_asset(links_.bulk, *message, stage_.assets());
     }
     if (auto arrival = loader_.take()) first_scene = take_scene(*std::move(arrival), now);
-    if (!first_scene) end_ = first_scene.error().message();
+    if (!first_scene) end_ = "there is no scene to show";
     if (const auto signal = signals.take()) end_ = fmt::format("signal {}", *signal);
     tick(now);
   }
@@ -121,7 +121,7 @@ Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
     for (const Peer* peer : members_.peers()) {
       if (peer->lives() && !peer->last_heard) welcome(*peer, now);
     }
-  } else {
+  } else if (!arrival.asker.empty()) {
     log::error("scene: {}", update.error().message());
   }
   if (!arrival.asker.empty()) {

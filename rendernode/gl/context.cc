@@ -124,9 +124,11 @@ Context::~Context() {
   // The display itself stays initialised: EGL shares it within the process.
 }
 
+int gpu_count() { return static_cast<int>(devices().size()); }
+
 std::vector<Gpu> list_gpus() {
   std::vector<Gpu> gpus;
-  const int count = static_cast<int>(devices().size());
+  const int count = gpu_count();
   for (int i = count == 0 ? -1 : 0; i < count; ++i) {
     auto context = Context::create(i);
     gpus.push_back({i, context ? (*context)->description() : context.error().message(), static_cast<bool>(context)});

@@ -19,6 +19,9 @@ struct Gpu {
 // All devices; where EGL lists none, the surfaceless platform.
 std::vector<Gpu> list_gpus();
 
+// How many there are, usable or not.
+int gpu_count();
+
 // Current on the thread that made it until it is destroyed; it never changes threads. GL's debug output goes to the
 // log.
 class Context {

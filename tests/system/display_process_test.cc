@@ -198,6 +198,7 @@ TEST_F(DisplayProcess, WritesWholeFramesSaysSoAndQuits) {
 }
 
 TEST_F(DisplayProcess, WrittenFramesBecomeViewsAndSheets) {
+  ASSERT_TRUE(make_folder(frame_path(folder_, 0)));
   for (const int module : {0, 1}) {
     Picture8 picture = black_picture(kSize.width, kSize.height);
     std::fill(picture.rgba.begin(), picture.rgba.end(), std::uint8_t(200));

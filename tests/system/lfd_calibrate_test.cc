@@ -97,6 +97,7 @@ TEST(LfdCalibrate, ChecksAndRefuses) {
 
 TEST(LfdCalibrate, ExportsAndImportsMpcdi) {
   const std::string folder = testing::TempDir() + "lfd-calibrate-mpcdi-" + std::to_string(getpid());
+  std::filesystem::create_directory(folder);
   const std::string archive = folder + "/desk.mpcdi", copy = folder + "/copy.textproto";
   EXPECT_EQ(calibrate("export " + kDesk + " --out " + archive + " --size 64 48").exit_code, 0);
   const Answer import = calibrate("import " + archive + " --nodes 33 --grids pfm --out " + copy);
@@ -150,6 +151,11 @@ TEST(LfdCalibrate, WritesPicturesOfTheCheck) {
                                  "round-trip-module-003.svg"}) {
     EXPECT_TRUE(std::filesystem::exists(bench.folder() / "plots" / file)) << file;
   }
+}
+
+TEST(LfdCalibrate, FailsWhereItsOutputCannotBeWritten) {
+  EXPECT_EQ(calibrate("info " + kDesk + " >/dev/full").exit_code, 1);
+  EXPECT_THAT(calibrate("make desk --out no/such/folder/desk.textproto").text, HasSubstr("there is no folder"));
 }
 
 }  // namespace

@@ -116,6 +116,49 @@ TEST(LfdRun, RunsBesideAnother) {
   EXPECT_TRUE(draws(second, 2));
 }
 
+// The controller, its nodes and the display go in any order.
+TEST(LfdRun, EndsWellWhenAClientQuits) {
+  const Workbench bench;
+  for (int round = 0; round < 3; ++round) {
+    const Running running = run_cluster(bench.deployment(kQuick));
+    if (round > 0) {
+      ASSERT_TRUE(draws(running, 1));
+    }
+    const auto quit = start_program("lfd", {"ctl", "quit", "--controller", running.endpoint});
+    const auto said = quit->wait(kPatience);
+    ASSERT_TRUE(said);
+    EXPECT_TRUE(said->succeeded()) << quit->lines().back();
+    const auto exit = running.lfd->wait(kPatience);
+    ASSERT_TRUE(exit);
+    EXPECT_TRUE(exit->succeeded()) << running.lfd->lines().back();
+  }
+  EXPECT_TRUE(none_left());
+}
+
+TEST(LfdCtl, ChangesOnlyWhatIsGiven) {
+  const Workbench bench;
+  const Running running = run_cluster(bench.deployment(kQuick));
+  ASSERT_TRUE(draws(running, 1));
+  const auto change = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"ctl", "--controller", running.endpoint, "ao"});
+    const auto exit = start_program("lfd", arguments)->wait(kPatience);
+    EXPECT_TRUE(exit && exit->succeeded());
+    const auto status = status_of(running);
+    EXPECT_TRUE(status);
+    return status ? status->render().ao() : proto::AmbientOcclusion();
+  };
+  proto::AmbientOcclusion ao = change({"--samples", "4"});
+  EXPECT_EQ(ao.samples(), 4);
+  EXPECT_FALSE(ao.has_enabled());
+  EXPECT_FALSE(ao.blur().has_enabled());
+  ao = change({"--off", "--symmetric", "--no-blur"});
+  EXPECT_TRUE(ao.has_enabled() && !ao.enabled());
+  ao = change({"--samples", "2"});
+  EXPECT_TRUE(ao.has_enabled() && !ao.enabled());
+  EXPECT_TRUE(ao.point_symmetric());
+  EXPECT_TRUE(ao.blur().has_enabled() && !ao.blur().enabled());
+}
+
 class TakenAddress : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(LfdRun, TakenAddress, testing::Values("control", "state", "bulk", "images"),
                          [](const auto& address) { return std::string(address.param); });
@@ -166,6 +209,65 @@ TEST(LfdRender, WritesImagesAndAReport) {
   EXPECT_TRUE(none_left());
 }
 
+TEST(LfdRender, SaysAtOnceAndOnceWhyASceneCannotBeShown) {
+  const Workbench bench;
+  const auto lfd = start_program(
+      "lfd", {"render", bench.deployment(kQuick), "--scene", "none.glb", "--out", bench.folder() / "out"});
+  const auto exit = lfd->wait(5s);  // a client's patience with a controller that is not there is 10 s
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 1);
+  const auto lines = lfd->lines();
+  EXPECT_EQ(std::ranges::count_if(lines, [](const auto& line) { return line.find("none.glb") != line.npos; }), 1);
+  EXPECT_THAT(lines.back(), HasSubstr("controller: exit code 1: scene: none.glb: no such file"));
+}
+
+TEST(LfdRender, LeavesNoFramesOfAnEarlierRender) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  const auto render = [&](const char* frames, const char* module) {
+    const auto lfd = start_program(
+        "lfd", {"render", bench.deployment(kQuick), "--frames", frames, "--out", out, "--module", module, "--no-ao"});
+    const auto exit = lfd->wait(kPatience);
+    EXPECT_TRUE(exit && exit->succeeded());
+    return lfd->lines();
+  };
+  render("2", "1");
+  EXPECT_THAT(render("1", "2"), testing::Contains(HasSubstr("2 frames of an earlier render are removed")));
+  EXPECT_FALSE(std::filesystem::exists(out / "frame-0001"));
+  EXPECT_FALSE(std::filesystem::exists(out / "frame-0000" / "module-001.color.png"));
+  EXPECT_TRUE(std::filesystem::exists(out / "frame-0000" / "module-002.color.png"));
+}
+
+TEST(LfdRender, WarnsWhereNothingOfTheSceneIsSeen) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  for (const char* roi : {"0,0,1000,1,1,1", "1000,0,0,1,1,1", "0,0,0,1e9,1e9,1e9"}) {
+    const auto lfd = start_program(
+        "lfd", {"render", bench.deployment(kQuick), "--out", out, std::string("--roi=") + roi, "--no-ao"});
+    const auto exit = lfd->wait(kPatience);
+    ASSERT_TRUE(exit);
+    EXPECT_TRUE(exit->succeeded());
+    EXPECT_THAT(lfd->lines(), testing::Contains(testing::StartsWith("warning: nothing of the scene is seen: "))) << roi;
+    const auto report = nlohmann::json::parse(*read_file(out / "report.json"));
+    EXPECT_EQ(report["warnings"].size(), 1u);
+  }
+}
+
+TEST(LfdView, SaysWhichPicturesAreMissingAndThatAnEyeIsUnlit) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  const std::string wall = bench.deployment(kQuick);
+  const auto render =
+      start_program("lfd", {"render", wall, "--out", out, "--module", "1-2", "--no-ao"})->wait(kPatience);
+  ASSERT_TRUE(render && render->succeeded());
+  const auto view = start_program(
+      "lfd", {"view", wall, "--frames-dir", out, "--eye", "30,0,2", "--out", bench.folder() / "view.png"});
+  const auto exit = view->wait(kPatience);
+  ASSERT_TRUE(exit && exit->succeeded());
+  EXPECT_THAT(view->lines(), testing::Contains(HasSubstr("without the pictures of modules 0, 3")));
+  EXPECT_THAT(view->lines(), testing::Contains(HasSubstr("no module lights this eye")));
+}
+
 TEST(LfdView, WritesWhatAViewerSees) {
   const Workbench bench;
   const auto picture = bench.folder() / "view.png";
@@ -189,6 +291,22 @@ TEST(Lfd, ItsProgramsSayWhatWasMeantByAWrongOption) {
   }
 }
 
+TEST(Lfd, ItsProgramsExitWithTwoOnWrongUse) {
+  const Workbench bench;
+  const std::string wall = bench.deployment(kQuick);
+  for (const auto& [program, arguments] :
+       {std::pair<const char*, std::vector<std::string>>{"lfd-scene", {"make", "plane", "--out", "y", "--width", "-1"}},
+        {"lfd-scene", {"make", "plane", "--out", "y", "--seed", "-1"}},
+        {"lfd-scene", {"make", "plane", "--out", "y", "--seed", "18446744073709551616"}},
+        {"lfd-calibrate", {"make", "desk", "--perturb", "-1"}},
+        {"lfd-display", {"sheet", "--frames-dir", "x", "--out", "y", "--tile-width", "0"}},
+        {"lfd-rendernode", {wall, "--name", "nope"}}}) {
+    const auto exit = start_program(program, arguments)->wait(kPatience);
+    ASSERT_TRUE(exit);
+    EXPECT_EQ(exit->code, 2) << program << " " << testing::PrintToString(arguments);
+  }
+}
+
 TEST(Lfd, ExitsWithTwoOnWrongUse) {
   const Workbench bench;
   const std::string wall = bench.deployment(kQuick);
@@ -199,6 +317,22 @@ TEST(Lfd, ExitsWithTwoOnWrongUse) {
                                                     {"run", wall, "--roi", "1,2"},
                                                     {"run", wall, "--module", "99"},
                                                     {"run", wall, "--module", "x"},
+                                                    {"run", wall, "--module", "1,,2"},
+                                                    {"run", wall, "--roi", "nan,0,0,1,1,1"},
+                                                    {"render", wall, "--out", "y", "--buffers", "color,,ao"},
+                                                    {"ctl", "--controller", "foo", "status"},
+                                                    {"ctl", "roi", "nan"},
+                                                    {"ctl", "roi", "--whole", "0,0,0,1,1,1"},
+                                                    {"ctl", "ao", "--on", "--off"},
+                                                    {"ctl", "ao", "--samples", "0"},
+                                                    {"ctl", "ao", "--samples", "1000"},
+                                                    {"ctl", "ao", "--radii", "9"},
+                                                    {"ctl", "ao", "--shell", "2"},
+                                                    {"ctl", "ao", "--shell", "nan"},
+                                                    {"ctl", "ao", "--generator", "foo"},
+                                                    {"bench", "frame", wall, "--module", "99"},
+                                                    {"bench", "frame", wall, "--gpu", "99"},
+                                                    {"view", wall, "--out", "y", "--eye", "0,0,nan"},
                                                     {"run", wall, "--log-level", "loud"},
                                                     {"view", wall, "--out", "y", "--eye", "0,0"},
                                                     {"view", wall, "--out", "y", "--eye", "0,0,-1"}}) {

@@ -101,7 +101,7 @@ TEST(RendernodeProcess, WrongUseAndRefusalsHaveReasons) {
   const auto unknown = start_node(deployment, "middle", controller.endpoint);
   const auto exit = unknown->wait(kPatience);
   ASSERT_TRUE(exit);
-  EXPECT_EQ(exit->code, 1);
+  EXPECT_EQ(exit->code, 2);
   EXPECT_TRUE(unknown->wait_for_line("it has no node \"middle\"", 1s));
 }
 

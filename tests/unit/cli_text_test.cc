@@ -12,7 +12,10 @@
 namespace lfd {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 std::string ranges(std::initializer_list<std::uint32_t> numbers) {
   return ranges_text({numbers.begin(), numbers.end()});
@@ -47,7 +50,7 @@ TEST(Report, GivesNumbersBackExactly) {
   node.set_node("left");
   node.add_pass()->set_pass("ao");
   node.add_left_out()->set_what("module");
-  const auto json = nlohmann::json::parse(report_json({}, "scene", {frame}));
+  const auto json = nlohmann::json::parse(report_json({}, "scene", {frame}, {}));
   const auto& read = json["frames"][0];
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(read["physical_from_world"][i].get<double>(), 1.0 / static_cast<double>(3 + i));
@@ -60,7 +63,7 @@ TEST(Report, GivesNumbersBackExactly) {
 
 TEST(Report, SurvivesTextThatIsNoUtf8) {
   proto::FrameReport frame;
-  EXPECT_NO_THROW(nlohmann::json::parse(report_json({}, "caf\xe9", {frame})));
+  EXPECT_NO_THROW(nlohmann::json::parse(report_json({}, "caf\xe9", {frame}, {})));
 }
 
 TEST(TimeTable, IsTheMeanOfTheFrames) {
@@ -71,6 +74,33 @@ TEST(TimeTable, IsTheMeanOfTheFrames) {
     pass.set_gpu_ms(ms);
   }
   EXPECT_THAT(time_table(frames), HasSubstr("2.000"));
+}
+
+TEST(TimeTable, LeavesOutFramesThatRepeatAnother) {
+  std::vector<proto::FrameReport> frames(3);
+  for (proto::FrameReport& frame : frames) frame.add_node()->set_node("left");
+  proto::PassTime& pass = *frames[0].mutable_node(0)->add_pass();
+  pass.set_pass("gbuffer");
+  pass.set_gpu_ms(6);
+  for (int repeated : {1, 2}) {
+    proto::LeftOut& left = *frames[static_cast<std::size_t>(repeated)].mutable_node(0)->add_left_out();
+    left.set_what("module");
+    left.set_which("all");
+  }
+  EXPECT_THAT(time_table(frames), AllOf(HasSubstr("6.000"), HasSubstr("1 of 3 by left")));
+}
+
+TEST(Warnings, AreEachSaidOnceAndTellOfAFrameThatShowsNothing) {
+  proto::FrameReport frame;
+  for (const char* module : {"0", "1"}) {
+    proto::LeftOut& left = *frame.add_node()->add_left_out();
+    left.set_what("module");
+    left.set_which(module);
+  }
+  EXPECT_THAT(warnings_of({frame, frame}, 3), IsEmpty());
+  EXPECT_THAT(warnings_of({frame, frame}, 2), ElementsAre(HasSubstr("nothing of the scene is seen")));
+  for (proto::NodeReport& node : *frame.mutable_node()) node.add_warning("nothing of the scene is seen: far away");
+  EXPECT_THAT(warnings_of({frame, frame}, 2), ElementsAre(HasSubstr("far away")));
 }
 
 }  // namespace

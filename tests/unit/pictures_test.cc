@@ -184,6 +184,7 @@ TEST(Pictures, ExrOfManyBlocksKeepsItsRowsFromTheTop) {
 TEST(Pictures, FilesOnDiskComeBackAndErrorsNameThem) {
   const auto folder = std::filesystem::temp_directory_path() / ("lfd-pictures-test-" + std::to_string(::getpid()));
   const Picture8 picture = noise(5, 4, true);
+  std::filesystem::create_directories(folder / "deep");
   ASSERT_TRUE(write_png(folder / "deep" / "a.png", picture));
   EXPECT_EQ(*read_png(folder / "deep" / "a.png"), picture);
   ASSERT_TRUE(write_exr(folder / "b.exr", special_numbers()));

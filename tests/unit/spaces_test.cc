@@ -114,6 +114,14 @@ TEST(RegionOfInterest, RefusesBoxesThatHaveNoInside) {
   roi = {};
   roi.physical_centre.x = INFINITY;
   EXPECT_FALSE(validate(roi));
+  for (const double absurd : {1e300, 1e-300, 1e13, 1e-13}) {
+    roi = {};
+    roi.world_size.x = absurd;
+    EXPECT_FALSE(validate(roi)) << absurd;
+  }
+  roi = {};
+  roi.world_centre.z = -1e13;
+  EXPECT_FALSE(validate(roi));
 }
 
 TEST(Affine, HasNoInverseWhereItFlattens) {

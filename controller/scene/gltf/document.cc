@@ -28,6 +28,14 @@ std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
 
 bool is_glb(std::string_view bytes) { return bytes.size() >= 4 && word_at(bytes, 0) == kGlbMagic; }
 
+// What is neither container is told so in our words, not in those of a JSON parser.
+Status check_kind(std::string_view bytes) {
+  if (bytes.empty()) return Error("the file is empty");
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  if (is_glb(bytes) || (first != bytes.npos && bytes[first] == '{')) return {};
+  return Error("neither glTF (JSON) nor glb: it begins with neither \"{\" nor \"glTF\"");
+}
+
 // The JSON text of a glb file whose chunks all lie inside the file.
 Result<std::string_view> json_of_glb(std::string_view bytes) {
   if (bytes.size() < kGlbHeaderBytes + kChunkHeaderBytes) return Error("glb: the file is truncated");
@@ -134,6 +142,7 @@ std::string label(std::string_view kind, std::size_t index, const std::string& n
 
 Result<Document> read_document(std::string_view content, const std::filesystem::path& folder) {
   std::string_view json = content;
+  LFD_TRY_STATUS(check_kind(content));
   if (is_glb(content)) {
     LFD_TRY(json, json_of_glb(content));
   }

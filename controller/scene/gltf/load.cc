@@ -174,7 +174,7 @@ Result<LoadedScene> load(std::string_view content, const std::filesystem::path& 
 Result<LoadedScene> load_scene(const std::filesystem::path& path) {
   LFD_TRY(const std::string content, read_file(path));
   Result<LoadedScene> scene = scene::gltf::load(content, path);
-  if (!scene) return scene.error().within(path.filename().string());
+  if (!scene) return scene.error().within(path.string());
   return scene;
 }
 

@@ -1,0 +1,91 @@
+// Files that are written: what is replaced, what is written to as it is, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "base/file.h"
+#include "proto/frame_files.h"
+
+namespace lfd {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Files : public testing::Test {
+ protected:
+  Files() {
+    std::string pattern = (fs::temp_directory_path() / "lfd-files-XXXXXX").string();
+    EXPECT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  ~Files() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST_F(Files, AreReplacedWholeAndKeepTheirPermissions) {
+  ASSERT_TRUE(write_file(folder_ / "a", "old"));
+  fs::permissions(folder_ / "a", fs::perms::owner_read | fs::perms::owner_write);
+  ASSERT_TRUE(write_file(folder_ / "a", "new"));
+  EXPECT_EQ(*read_file(folder_ / "a"), "new");
+  EXPECT_EQ(fs::status(folder_ / "a").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(Files, AreWrittenThroughLinks) {
+  fs::create_directory(folder_ / "there");
+  fs::create_symlink("there/b", folder_ / "a");
+  for (const char* content : {"first", "second"}) {  // the link leads nowhere at first
+    ASSERT_TRUE(write_file(folder_ / "a", content));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "a"));
+    EXPECT_EQ(*read_file(folder_ / "there" / "b"), content);
+  }
+  fs::create_symlink("circle", folder_ / "circle");
+  EXPECT_THAT(write_file(folder_ / "circle", "").error().message(), HasSubstr("links"));
+}
+
+TEST_F(Files, ThatAreNoneAreWrittenToAsTheyAre) {
+  fs::create_symlink("/dev/null", folder_ / "a");
+  EXPECT_TRUE(write_file(folder_ / "a", "gone"));
+  EXPECT_TRUE(fs::is_character_file(folder_ / "a"));
+  EXPECT_THAT(write_file("/dev/full", "x").error().message(), HasSubstr("/dev/full: cannot be written"));
+}
+
+TEST_F(Files, AreRefusedWhereTheyCannotBe) {
+  EXPECT_THAT(write_file(folder_ / "no" / "a", "").error().message(), HasSubstr("there is no folder"));
+  EXPECT_FALSE(fs::exists(folder_ / "no"));
+  EXPECT_THAT(write_file(folder_, "").error().message(), HasSubstr("is a folder"));
+  ASSERT_TRUE(write_file(folder_ / "a", "kept"));
+  EXPECT_FALSE(make_folder(folder_ / "a"));
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everything";
+  fs::permissions(folder_ / "a", fs::perms::owner_read);
+  EXPECT_THAT(write_file(folder_ / "a", "").error().message(), HasSubstr("cannot be written"));
+  EXPECT_EQ(*read_file(folder_ / "a"), "kept");
+}
+
+TEST_F(Files, OfEarlierFramesAreRemovedAndNoOthers) {
+  const fs::path out = folder_ / "out";
+  for (int frame : {0, 1}) ASSERT_TRUE(make_folder(frame_path(out, static_cast<std::uint64_t>(frame))));
+  const std::vector<fs::path> own{report_path(out), image_path(out, 0, 3, proto::COLOR),
+                                  image_path(out, 1, 3, proto::AO)};
+  const std::vector<fs::path> others{out / "notes.txt", frame_path(out, 1) / "module-003.color.png.txt",
+                                     out / "frame-0002.png"};
+  for (const auto& files : {own, others}) {
+    for (const fs::path& file : files) ASSERT_TRUE(write_file(file, "x"));
+  }
+  const auto removed = remove_frames(out);
+  ASSERT_TRUE(removed);
+  EXPECT_EQ(*removed, 2);
+  for (const fs::path& file : own) EXPECT_FALSE(fs::exists(file)) << file;
+  for (const fs::path& file : others) EXPECT_TRUE(fs::exists(file)) << file;
+  EXPECT_FALSE(fs::exists(frame_path(out, 0)));
+  EXPECT_EQ(*remove_frames(out), 0);
+}
+
+}  // namespace
+}  // namespace lfd
