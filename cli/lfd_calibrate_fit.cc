@@ -104,6 +104,13 @@ void add_fit_command(CLI::App& app, int& exit_code) {
                    "distance without it")
       ->check(CLI::PositiveNumber)
       ->type_name("M");
+  command->footer(
+      "One optimisation over all modules, and the radius of a curved screen; then, where points held out say that it\n"
+      "helps, a grid of smoothed residuals. Priors about the start decide what observations of a screen cannot: "
+      "beside\n"
+      "--emitter-sd, 1 degree for each turn, 2 % of the focal lengths, 3 % of the image's width for the principal "
+      "point,\n"
+      "1 to 3 % of it for what each lens coefficient moves the furthest corner, 20 % of the radius.");
 }
 
 }  // namespace lfd

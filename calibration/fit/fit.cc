@@ -122,6 +122,9 @@ std::vector<Outlier> judge(FittedModule& module, const PinholeFamily& family, do
 
 Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observations& observations,
                                   const FitOptions& options) {
+  if (const double sd = options.emitter_sd_m.value_or(1); !(sd > 0) || !std::isfinite(sd)) {
+    return Error(fmt::format("standard deviation of the emitters: {} m must be positive and finite", sd));
+  }
   LFD_TRY(const std::vector<ModuleObservations> lists, observations_by_module(start, observations));
   LFD_TRY(const std::vector<PinholeFamily> families, families_of(start, options));
   const double radius = start.optics.screen_radius_m, start_curvature = radius == 0 ? 0 : 1 / radius;

@@ -20,7 +20,8 @@
 namespace lfd {
 
 struct FitOptions {
-  // Standard deviation of the start's emitters along each axis, m; absent: 0.5 % of their distance from the screen.
+  // Standard deviation of the start's emitters along each axis, m, > 0; absent: 0.5 % of their distance from the
+  // screen.
   std::optional<double> emitter_sd_m;
   bool residual_grids = true;  // false: all modules stay pinholes
 };
@@ -62,7 +63,8 @@ inline constexpr double kOutlierSigmas = 6;
 inline constexpr double kLeastOutlier_px = 0.01;
 
 // The order of the observations makes no difference. Errors begin with the observations' source, and name line or
-// module: those of observations_by_module() and determined_by(), a start that cannot see what was observed.
+// module: those of observations_by_module() and determined_by(), a start that cannot see what was observed. An error of
+// the options names them.
 Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observations& observations,
                                   const FitOptions& options = {});
 

@@ -31,7 +31,7 @@ struct Observations {
 
 // Beyond these a file is a mistake.
 inline constexpr std::size_t kObservationFileLimit_bytes = std::size_t{256} << 20;
-inline constexpr std::size_t kMaxObservations = 2'000'000;
+inline constexpr std::size_t kMaxObservations = 1'000'000;
 inline constexpr double kMostSigma_px = 1e6, kLeastSigma_px = 1e-6;
 
 // A header with the columns module, u, v, s, y and, if known, sigma, in any order, then a line for each observation.

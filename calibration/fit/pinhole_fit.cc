@@ -3,13 +3,12 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/loss_function.h>
-#include <ceres/normal_prior.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <glm/geometric.hpp>
 
 #include "base/log.h"
 

@@ -19,8 +19,10 @@ namespace {
 constexpr std::size_t kParts = 5;
 constexpr std::size_t kLeastSamples = 20;
 constexpr int kTrustRounds = 6;
-constexpr double kTrustWidth = 6;     // of Cauchy's loss, in robust standard deviations: corners bend most
-constexpr double kLeastWidth = 1e-9;  // of Cauchy's loss, in sigmas: residuals may be all 0
+constexpr double kTrustWidth = 6;  // of Cauchy's loss, in robust standard deviations: corners bend most
+// The width is never below this share of the residuals themselves: without noise a spline misses only what bends most,
+// and must not lose its trust in that.
+constexpr double kLeastWidthShare = 0.1;
 constexpr double kFirstLambda = 0.01;
 constexpr double kDensity = 0.7;     // intervals along an axis for each sample along it
 constexpr double kFirstRung = 1e-4;  // of the ladder of lambdas, for one sample a control point
@@ -125,6 +127,9 @@ class Smoother {
         roughness_(roughness(field_)),
         design_(design(field_, samples)),
         trust_(samples.size(), 1) {
+    std::vector<double> distances;
+    for (const ResidualSample& sample : samples) distances.push_back(glm::length(sample.residual_px) / sample.sigma_px);
+    least_width_ = std::max(kLeastWidthShare * robust_spread(std::move(distances)), 1e-12);
     assemble();
   }
 
@@ -134,7 +139,7 @@ class Smoother {
       const ResidualField field = solve(lambda, kParts);
       std::vector<double> distances(samples_.size());
       for (std::size_t i = 0; i < samples_.size(); ++i) distances[i] = std::sqrt(square(field, i));
-      const double width = std::max(kTrustWidth * robust_spread(distances), kLeastWidth);
+      const double width = std::max(kTrustWidth * robust_spread(distances), least_width_);
       for (std::size_t i = 0; i < samples_.size(); ++i) {
         trust_[i] = 1 / (1 + distances[i] * distances[i] / (width * width));
       }
@@ -238,6 +243,7 @@ class Smoother {
   ResidualField field_;
   Sparse roughness_;
   Sparse design_;
+  double least_width_ = 0;     // of Cauchy's loss, in sigmas
   std::vector<double> trust_;  // Cauchy's weights, 0 to 1
   std::array<Sparse, kParts> normal_;
   std::array<Columns2, kParts> right_;

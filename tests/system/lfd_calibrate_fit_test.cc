@@ -24,6 +24,7 @@ Answer calibrate(const std::vector<std::string>& arguments) {
   const auto process = harness::start_program("lfd-calibrate", arguments);
   const auto exit = process->wait(std::chrono::seconds(60));
   EXPECT_TRUE(exit) << "still runs";
+  process->wait_for_line("a line that no program prints", std::chrono::seconds(10));  // until the output has ended
   Answer answer{exit.value_or(Exit{-1, 0}), {}};
   for (const std::string& line : process->lines()) answer.text += line + "\n";
   return answer;
