@@ -94,18 +94,23 @@ std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, c
   return p;
 }
 
-std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module,
-                                             PixelPoint p) {
-  if (!contains(display.image, p)) return std::nullopt;
-  const auto s = std::visit(
+std::optional<ScreenPoint> lit_by(const DisplayCalibration& display, const ScreenMap& screen_map, PixelPoint p) {
+  return std::visit(
       [&](const auto& map) -> std::optional<ScreenPoint> {
         using Map = std::decay_t<decltype(map)>;
         if constexpr (std::is_same_v<Map, IdealMap>) return screen_from_image(map, display.screen, display.image, p);
         if constexpr (std::is_same_v<Map, PinholeMap>) return pinhole_on_screen(display.optics, map, p);
-        if constexpr (std::is_same_v<Map, HomographyMap> || std::is_same_v<Map, GridMap>)
+        if constexpr (std::is_same_v<Map, HomographyMap> || std::is_same_v<Map, GridMap>) {
           return screen_from_image(map, p);
+        }
       },
-      module.map);
+      screen_map);
+}
+
+std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module,
+                                             PixelPoint p) {
+  if (!contains(display.image, p)) return std::nullopt;
+  const auto s = lit_by(display, module.map, p);
   if (!s || !contains(display.screen, *s)) return std::nullopt;
   return s;
 }

@@ -51,6 +51,9 @@ std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, c
 std::optional<ScreenPoint> screen_from_image(const DisplayCalibration& display, const ModuleCalibration& module,
                                              PixelPoint p);
 
+// The map alone, also beside the image and beside the screen's borders, as far as it goes there.
+std::optional<ScreenPoint> lit_by(const DisplayCalibration& display, const ScreenMap& map, PixelPoint p);
+
 // The whole map: optics, then the module's. Absent where either is.
 std::optional<ImagePoint> image_from_physical(const DisplayCalibration& display, const ModuleCalibration& module,
                                               Point3<Physical> p);

@@ -150,9 +150,6 @@ Result<DisplayCalibration> measured(const DisplayCalibration& display, int colum
   DisplayCalibration result = display;
   result.name += fmt::format("-measured-{}", seed);
   Random random(seed);
-  // Where the map goes beside the screen, it is asked as if the screen were larger.
-  DisplayCalibration wide = display;
-  wide.screen = {3 * display.screen.width_m, 3 * display.screen.height_m};
   for (std::size_t k = 0; k < result.modules.size(); ++k) {
     const ImageSize image = display.image;
     GridNodes nodes{columns, rows, 0, 0, image.width / (columns - 1.0), image.height / (rows - 1.0), {}};
@@ -163,11 +160,7 @@ Result<DisplayCalibration> measured(const DisplayCalibration& display, int colum
         const double a = along_u * place.x / image.width + phase, b = along_v * place.y / image.height - phase;
         const PixelPoint moved{place.x + bump_px * std::sin(b + std::cos(a)),
                                place.y + bump_px * std::cos(a - std::sin(b))};
-        const auto s = std::holds_alternative<IdealMap>(display.modules[k].map)
-                           ? std::optional(screen_from_image(IdealMap{}, display.screen, image, moved))
-                           : screen_from_image(wide, display.modules[k],
-                                               {std::clamp(moved.x, 0.0, image.width - 1e-9),
-                                                std::clamp(moved.y, 0.0, image.height - 1e-9)});
+        const auto s = lit_by(display, display.modules[k].map, moved);
         const double hole = std::numeric_limits<double>::quiet_NaN();
         nodes.node.push_back(s ? ScreenPoint{rounded(s->x), rounded(s->y)} : ScreenPoint{hole, hole});
       }

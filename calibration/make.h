@@ -36,7 +36,7 @@ DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t se
 
 // The same display as if it had been measured: every map becomes a grid of columns x rows nodes over the image, each
 // where the map and a smooth warp of its own, of up to about `bump_px` pixels, put it; holes where the map has none.
-// The screen is taken to go on beside its border, so that images that reach beyond it have nodes there. Errors: those
+// The screen is taken to go on beside its borders, so that images that reach beyond it have nodes there. Errors: those
 // of GridMap::make, with the module.
 Result<DisplayCalibration> measured(const DisplayCalibration& display, int columns, int rows, double bump_px,
                                     std::uint64_t seed);

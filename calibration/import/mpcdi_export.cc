@@ -13,19 +13,6 @@
 namespace lfd {
 namespace {
 
-// The map alone: beside the screen too.
-std::optional<ScreenPoint> lit_by(const DisplayCalibration& display, const ScreenMap& map, PixelPoint p) {
-  return std::visit(
-      [&](const auto& kind) -> std::optional<ScreenPoint> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, IdealMap>) {
-          return screen_from_image(kind, display.screen, display.image, p);
-        } else {
-          return screen_from_image(kind, p);
-        }
-      },
-      map);
-}
-
 // What is worth writing: as far beside the screen as it is large, and on the half of a cylinder that faces the viewer.
 bool is_near(const DisplayCalibration& display, ScreenPoint s) {
   const double radius = std::abs(display.optics.screen_radius_m);

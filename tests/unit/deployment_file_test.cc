@@ -34,6 +34,7 @@ class DeploymentFile : public testing::Test {
   DeploymentFile() {
     folder_ = std::filesystem::path(testing::TempDir()) /
               ("deployment-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
     EXPECT_TRUE(save_calibration(folder_ / "desk.textproto", *make_display("desk")));
   }
   ~DeploymentFile() override { std::filesystem::remove_all(folder_); }

@@ -61,6 +61,7 @@ class GridFolder : public testing::Test {
   ~GridFolder() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, std::string_view content) {
+    std::filesystem::create_directories((folder_ / name).parent_path());
     const auto status = write_file(folder_ / name, content);
     ASSERT_TRUE(status) << status.error().message();
   }

@@ -1,0 +1,113 @@
+// lfd render and view: what they write, and what they say where they cannot.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "tests/harness/workbench.h"
+
+namespace lfd::harness {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+constexpr auto kPatience = 60s;  // a software rasteriser starts slowly on a busy machine
+const std::string kQuick = "pacing { heartbeat_ms: 100 }";
+
+TEST(LfdRender, WritesImagesAndAReport) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  const auto lfd = start_program("lfd", {"render", bench.deployment(kQuick), "--frames", "2", "--buffers",
+                                         "color,position,normal,ao,depth", "--out", out, "--module", "1-2"});
+  const auto exit = lfd->wait(kPatience);
+  ASSERT_TRUE(exit);
+  ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
+  for (const char* name : {"color.png", "position.exr", "normal.exr", "ao.exr", "depth.exr"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / "frame-0001" / ("module-001." + std::string(name)))) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(out / "frame-0000" / "module-000.color.png"));
+  const auto report = nlohmann::json::parse(*read_file(out / "report.json"));
+  ASSERT_EQ(report["frames"].size(), 2u);
+  const auto& frame = report["frames"][0];
+  EXPECT_EQ(frame["physical_from_world"].size(), 16u);
+  EXPECT_EQ(frame["nodes"].size(), 2u);
+  for (const auto& node : frame["nodes"]) EXPECT_EQ(node["state_hash"], frame["state_hash"]);
+  EXPECT_TRUE(descendants_named("lfd").empty());
+}
+
+TEST(LfdRender, SaysAtOnceAndOnceWhyASceneCannotBeShown) {
+  const Workbench bench;
+  const auto lfd = start_program(
+      "lfd", {"render", bench.deployment(kQuick), "--scene", "none.glb", "--out", bench.folder() / "out"});
+  const auto exit = lfd->wait(5s);  // a client's patience with a controller that is not there is 10 s
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 1);
+  const auto lines = lfd->lines();
+  EXPECT_EQ(std::ranges::count_if(lines, [](const auto& line) { return line.find("none.glb") != line.npos; }), 1);
+  EXPECT_THAT(lines.back(), HasSubstr("controller: exit code 1: scene: none.glb: no such file"));
+}
+
+TEST(LfdRender, LeavesNoFramesOfAnEarlierRender) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  const auto render = [&](const char* frames, const char* module) {
+    const auto lfd = start_program(
+        "lfd", {"render", bench.deployment(kQuick), "--frames", frames, "--out", out, "--module", module, "--no-ao"});
+    const auto exit = lfd->wait(kPatience);
+    EXPECT_TRUE(exit && exit->succeeded());
+    return lfd->lines();
+  };
+  render("2", "1");
+  EXPECT_THAT(render("1", "2"), testing::Contains(HasSubstr("2 frames of an earlier render are removed")));
+  EXPECT_FALSE(std::filesystem::exists(out / "frame-0001"));
+  EXPECT_FALSE(std::filesystem::exists(out / "frame-0000" / "module-001.color.png"));
+  EXPECT_TRUE(std::filesystem::exists(out / "frame-0000" / "module-002.color.png"));
+}
+
+TEST(LfdRender, WarnsWhereNothingOfTheSceneIsSeen) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  for (const char* roi : {"0,0,1000,1,1,1", "1000,0,0,1,1,1", "0,0,0,1e9,1e9,1e9"}) {
+    const auto lfd = start_program(
+        "lfd", {"render", bench.deployment(kQuick), "--out", out, std::string("--roi=") + roi, "--no-ao"});
+    const auto exit = lfd->wait(kPatience);
+    ASSERT_TRUE(exit);
+    EXPECT_TRUE(exit->succeeded());
+    EXPECT_THAT(lfd->lines(), testing::Contains(testing::StartsWith("warning: nothing of the scene is seen: "))) << roi;
+    const auto report = nlohmann::json::parse(*read_file(out / "report.json"));
+    EXPECT_EQ(report["warnings"].size(), 1u);
+  }
+}
+
+TEST(LfdView, SaysWhichPicturesAreMissingAndThatAnEyeIsUnlit) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out";
+  const std::string wall = bench.deployment(kQuick);
+  const auto render =
+      start_program("lfd", {"render", wall, "--out", out, "--module", "1-2", "--no-ao"})->wait(kPatience);
+  ASSERT_TRUE(render && render->succeeded());
+  const auto view = start_program(
+      "lfd", {"view", wall, "--frames-dir", out, "--eye", "30,0,2", "--out", bench.folder() / "view.png"});
+  const auto exit = view->wait(kPatience);
+  ASSERT_TRUE(exit && exit->succeeded());
+  EXPECT_THAT(view->lines(), testing::Contains(HasSubstr("without the pictures of modules 0, 3")));
+  EXPECT_THAT(view->lines(), testing::Contains(HasSubstr("no module lights this eye")));
+}
+
+TEST(LfdView, WritesWhatAViewerSees) {
+  const Workbench bench;
+  const auto picture = bench.folder() / "view.png";
+  const auto lfd =
+      start_program("lfd", {"view", bench.deployment(kQuick), "--eye", "-0.1,0,2", "--out", picture, "--no-ao"});
+  const auto exit = lfd->wait(kPatience);
+  ASSERT_TRUE(exit);
+  ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
+  EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+}  // namespace
+}  // namespace lfd::harness
