@@ -76,6 +76,9 @@ Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
   settings.interpolated_position = m.position() == proto::RenderSettings::INTERPOLATED;
   if (m.tessellation_px() != 0) LFD_TRY_STATUS(check_range("tessellation_px", m.tessellation_px(), 0.01, 1e4));
   settings.tessellation_px = m.tessellation_px();
+  if (settings.tessellation_px > 0 && !settings.interpolated_position) {
+    return Error("tessellation_px: with position INTERPOLATED only: a fragment of a patch cannot tell its triangle");
+  }
   if (m.warp_level() != 0) LFD_TRY_STATUS(check_range("warp_level", m.warp_level(), 4, 9));
   settings.warp_level = m.warp_level();
   LFD_TRY_STATUS(check_range("subdivision_px", settings.subdivision_px, 0.01, 1e4));

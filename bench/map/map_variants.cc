@@ -36,7 +36,6 @@ std::vector<MapVariant> map_variants(const DisplayCalibration& display) {
       variant("per pixel, subdivided to 0.1 px", 0.1, kPerPixel),
       variant("per pixel, subdivided to 0.05 px", 0.05, kPerPixel),
       variant("per pixel, subdivided to 0.02 px", 0.02, kPerPixel),
-      variant("per pixel, tessellated to 0.1 px", kWhole_px, kPerPixel, 0.1),
   };
   const bool is_measured = std::ranges::any_of(
       display.modules, [](const ModuleCalibration& m) { return std::holds_alternative<GridMap>(m.map); });
