@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 
 #include "base/log.h"
+#include "calibration/random.h"
 
 namespace lfd {
 namespace {
@@ -37,24 +37,6 @@ constexpr std::array kDisplays = {
 
 // Takes away the last digits, in which the mathematics libraries of machines differ.
 double rounded(double value) { return std::round(value * 1e12) / 1e12; }
-
-// Numbers from the raw bits of the generator: the standard's own distributions differ between libraries.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-
-  double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
-
-  // Nearly normal, mean 0, standard deviation 1, never beyond +-2.5: the sum of twelve uniform numbers.
-  double normal() {
-    double sum = -6;
-    for (int i = 0; i < 12; ++i) sum += unit();
-    return std::clamp(sum, -2.5, 2.5);
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
 
 // The largest distance, in normalised coordinates, of a corner of the image from the optical axis.
 double corner_radius(const PinholeMap& map, ImageSize image) {
@@ -158,7 +140,8 @@ DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t se
     if (!std::holds_alternative<IdealMap>(module.map)) continue;
     const PinholeMap map =
         with_errors(pinhole_of_ideal(display.screen, display.image, module.emitter), display.image, random);
-    module = {map.position, map};
+    module.emitter = map.position;
+    module.map = map;
   }
   return result;
 }
