@@ -30,7 +30,7 @@ glm::dvec3 size_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
 Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
   AoSettings ao;
   if (m.has_enabled()) ao.enabled = m.enabled();
-  LFD_TRY_STATUS(check_range("ao.radius_m", m.radius_m(), 0, 1e30));
+  LFD_TRY_STATUS(check_range("ao.radius_m", m.radius_m(), 0, 1e15));
   LFD_TRY_STATUS(check_range("ao.radius_roi", m.radius_roi(), 0, 1e6));
   LFD_TRY_STATUS(check_range("ao.samples", m.samples(), 0, 256));
   LFD_TRY_STATUS(check_range("ao.radii", m.radii(), 0, 8));

@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.h"
+#include "calibration/limits.h"
 
 namespace lfd {
 namespace {
 
-Status validate_size(const char* name, glm::dvec3 size) {
+Status validate_size(const char* name, glm::dvec3 size, Limits limits) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(size[axis] > 0) || !std::isfinite(size[axis])) {
       return Error(fmt::format("{}: {} along {} must be positive and finite", name, size[axis], "xyz"[axis]));
     }
+    LFD_TRY_STATUS(check_magnitude(name, size[axis], limits));
   }
-  return {};
+  const auto [least, most] = std::minmax({size.x, size.y, size.z});
+  if (most <= kMostRoiRatio * least) return {};
+  return Error(fmt::format("{}: {} to {} is a ratio of {:g}; at most {:g} is possible", name, most, least, most / least,
+                           kMostRoiRatio));
 }
 
 }  // namespace
@@ -23,8 +27,15 @@ Status validate_size(const char* name, glm::dvec3 size) {
 Status validate(const RegionOfInterest& roi) {
   if (!is_finite(roi.world_centre)) return Error("world_centre: must be finite");
   if (!is_finite(roi.physical_centre)) return Error("physical_centre: must be finite");
-  LFD_TRY_STATUS(validate_size("world_size", roi.world_size));
-  LFD_TRY_STATUS(validate_size("physical_size", roi.physical_size));
+  LFD_TRY_STATUS(validate_size("world_size", roi.world_size, kRoiWorldSize_m));
+  LFD_TRY_STATUS(validate_size("physical_size", roi.physical_size, kRoiPhysicalSize_m));
+  if (const double away = glm::length(to_glm(roi.world_centre)); !(away <= kFarthestRoi * roi.diagonal_m())) {
+    return Error(fmt::format("world_centre: {:g} m from the origin are more than {:g} diagonals: double precision ends",
+                             away, kFarthestRoi));
+  }
+  for (const double place : {roi.physical_centre.x, roi.physical_centre.y, roi.physical_centre.z}) {
+    LFD_TRY_STATUS(check_magnitude("physical_centre", place, kPlace_m));
+  }
   const double norm = glm::length(roi.world_orientation);
   if (!(std::abs(norm - 1) <= 1e-6)) {
     return Error(fmt::format("world_orientation: a unit quaternion is needed, its length is {}", norm));
