@@ -27,7 +27,7 @@ Status validate_map(const DisplayCalibration& display, const HomographyMap& map)
   const glm::dmat3 unit_from_unit = unit_from_image * map.image_from_screen * screen_from_unit;
   double largest = 0;
   for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(unit_from_unit[column]));
-  if (std::abs(glm::determinant(unit_from_unit / largest)) > 1e-6) return {};
+  if (std::abs(glm::determinant(unit_from_unit / largest)) > 1e-12) return {};
   return Error("homography: h: the screen is shrunk to a point or a line of the image, beyond single precision");
 }
 

@@ -31,6 +31,10 @@ inline constexpr Limits kRoiPhysicalSize_m{1e-9, 1e6};
 inline constexpr double kMostRoiRatio = 1e7;  // of the longest axis of a box to its shortest
 inline constexpr double kFarthestRoi = 1e10;  // diagonals from the world's origin: 1e-6 of the diagonal is left there
 
+// How many diagonals of the world box its physical box is across along the axis that is magnified most: what single
+// precision loses in physical space comes back as so much of the world's diagonal.
+inline constexpr double kMostRoiMagnification = 1e4;
+
 // "`field`: 1e+39; 0.001 to 1000 are possible". A number that is not finite has no magnitude within any limits.
 inline Status check_magnitude(const std::string& field, double value, Limits limits) {
   if (std::abs(value) >= limits.least && std::abs(value) <= limits.most) return {};

@@ -33,6 +33,14 @@ Status validate(const RegionOfInterest& roi) {
     return Error(fmt::format("world_centre: {:g} m from the origin are more than {:g} diagonals: double precision ends",
                              away, kFarthestRoi));
   }
+  const glm::dvec3 scale = roi.world_size / roi.physical_size;
+  const double magnification =
+      std::max({scale.x, scale.y, scale.z}) * glm::length(roi.physical_size) / roi.diagonal_m();
+  if (!(magnification <= kMostRoiMagnification)) {
+    return Error(
+        fmt::format("physical_size: one axis is magnified {:g} times more than the others; at most {:g} is possible",
+                    magnification, kMostRoiMagnification));
+  }
   for (const double place : {roi.physical_centre.x, roi.physical_centre.y, roi.physical_centre.z}) {
     LFD_TRY_STATUS(check_magnitude("physical_centre", place, kPlace_m));
   }

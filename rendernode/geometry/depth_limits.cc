@@ -43,6 +43,7 @@ DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings
   for_places(display, [&](const ModuleCalibration& module, ScreenPoint s, const PixelLine&) {
     least_w = std::min(least_w, w_at_depth(display.optics, module.emitter, s, limits.back));
   });
+  limits.singular = std::min(singular, limits.back - 1e-3 * (limits.front - limits.back));
   limits.depth_scale = std::max(least_w, 1e-9) / (limits.front - limits.back);
   return limits;
 }

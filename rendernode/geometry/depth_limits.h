@@ -12,6 +12,7 @@ struct DepthLimits {
   double front = 0, back = 0;
   bool in_z = true;        // depth is z: geometry can be cut in space. On a curved screen pixels are left out instead
   double depth_scale = 1;  // clip.z = depth_scale (front - depth); at most w everywhere between the limits
+  double singular = 0;     // behind `back`: the nearest place where the lines of some module meet
 };
 
 // The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back
