@@ -39,7 +39,7 @@ std::string fault_of(const FrameResult& frame) {
 
 Result<reference::Truth> truth_of(const Drawing& drawing, const FrameResult& frame) {
   LFD_TRY(const RenderSettings settings, read_settings(drawing.settings));
-  LFD_TRY(const reference::WorldScene scene, reference::world_scene(drawing.data, drawing.roi));
+  LFD_TRY(const reference::WorldScene scene, reference::world_scene(drawing.seen.value_or(drawing.data), drawing.roi));
   const reference::Intersector intersector(scene);
   const DepthLimits limits = depth_limits(drawing.display, settings);
   const reference::ModuleView view{drawing.display, drawing.display.modules[0], {limits.front, limits.back}};
@@ -125,7 +125,7 @@ SceneData sphere_in_box(const RegionOfInterest& roi) {
   }
   maker.add_mesh(reference::sphere({0.1F, 0, 0.1F}, 0.3F, 16), plain, placement);
   MeshArrays quads;
-  quads.position = {{-0.5F, -0.5F, -0.4F}, {0.5F, -0.5F, -0.4F}, {0.5F, 0.5F, -0.4F}, {-0.5F, 0.5F, -0.4F},
+  quads.position = {{-0.5F, -0.5F, -0.4F}, {0.5F, -0.5F, -0.4F}, {0.5F, 0.5F, -0.4F},  {-0.5F, 0.5F, -0.4F},
                     {-0.5F, -0.4F, 0.45F}, {0.5F, -0.4F, 0.45F}, {0.5F, -0.4F, -0.5F}, {-0.5F, -0.4F, -0.5F}};
   quads.normal.assign(4, {0, 0, 1});
   quads.normal.resize(8, {0, 1, 0});

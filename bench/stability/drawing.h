@@ -2,6 +2,7 @@
 // not finite.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bench/reference/truth.h"
@@ -19,6 +20,9 @@ struct Drawing {
   SceneData data;
   RegionOfInterest roi;
   proto::RenderSettings settings;
+  // The same surfaces, as far as they can be seen, for the reference: it takes no triangles that are not finite, and
+  // its double precision ends where theirs are 1e20 m large. Absent: `data` itself.
+  std::optional<SceneData> seen = std::nullopt;
 };
 
 struct Drawn {

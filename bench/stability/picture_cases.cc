@@ -34,10 +34,18 @@ void add_picture_cases(StabilityCases& cases) {
       roi = small_roi();
       roi.world_size[axis] /= ratio;
       cases.push_back(picture(fmt::format("{:g} times shorter along {}, turned", ratio, "xyz"[axis]), roi));
-      roi = small_roi();
-      roi.physical_size[axis] /= ratio;
-      if (axis == 2) cases.push_back(picture(fmt::format("{:g} times shorter along z in physical space", ratio), roi));
     }
+  }
+  for (const double ratio : {1e3, 9e3}) {
+    RegionOfInterest roi = small_roi();
+    roi.physical_size.z /= ratio;
+    cases.push_back(picture(fmt::format("{:g} times shorter along z in physical space alone", ratio), roi));
+  }
+  for (const double ratio : {1e5, 1e6}) {
+    RegionOfInterest roi = small_roi();
+    roi.physical_size.z /= ratio;
+    cases.push_back(drawing_refused(kGroup, fmt::format("{:g} times shorter along z in physical space alone", ratio),
+                                    "physical_size: one axis is magnified", [roi] { return drawing_of(roi); }));
   }
   for (const double scale : {1e-8, 1e-4, 1e4, 1e11}) {
     RegionOfInterest roi = small_roi();
