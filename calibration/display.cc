@@ -16,8 +16,8 @@ namespace {
 
 Status validate_map(const DisplayCalibration&, const IdealMap&) { return {}; }
 
-// As a map of the unit square to the unit square its columns, and those of its inverse, are of about the same size; a
-// million to one is beyond what the GPU's single precision can draw.
+// Taken as a map of the unit square to the unit square, it must leave of the square's area at least 1e-12: less is
+// beyond what the GPU's single precision can draw.
 Status validate_map(const DisplayCalibration& display, const HomographyMap& map) {
   if (auto status = validate(map); !status) return status.error().within("homography");
   const glm::dmat3 unit_from_image(glm::dvec3(1.0 / display.image.width, 0, 0),

@@ -36,6 +36,7 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   const auto start = Clock::now();
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   LFD_TRY(const RegionOfInterest roi, read_roi(state.roi()));
+  LFD_TRY_STATUS(check_radius(settings.ao, roi));
   const bool first = !state_.has_value();
   const bool new_rule = first || settings.subdivision_px != settings_.subdivision_px ||
                         settings.near_z_m != settings_.near_z_m || settings.far_z_m != settings_.far_z_m;

@@ -1,6 +1,7 @@
 // Drawing and judging.
 #include "bench/stability/drawing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -37,6 +38,21 @@ std::string fault_of(const FrameResult& frame) {
   return "";
 }
 
+void read_occlusion(const FrameResult& frame, Drawn& drawn) {
+  double sum = 0, count = 0;
+  for (const ModuleImage& image : frame.images) {
+    if (image.kind != proto::AO) continue;
+    const std::vector<float> rgba = floats_of(image);
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+      if (rgba[i + 3] == 0) continue;
+      sum += rgba[i];
+      ++count;
+      drawn.largest_ao = std::max(drawn.largest_ao, static_cast<double>(rgba[i]));
+    }
+  }
+  drawn.mean_ao = count > 0 ? sum / count : 0;
+}
+
 Result<reference::Truth> truth_of(const Drawing& drawing, const FrameResult& frame) {
   LFD_TRY(const RenderSettings settings, read_settings(drawing.settings));
   LFD_TRY(const reference::WorldScene scene, reference::world_scene(drawing.seen.value_or(drawing.data), drawing.roi));
@@ -67,6 +83,7 @@ Result<Drawn> draw(const gl::Context& context, const Drawing& drawing) {
   Drawn drawn;
   LFD_TRY(drawn.truth, truth_of(drawing, frame));
   drawn.fault = fault_of(frame);
+  read_occlusion(frame, drawn);
   if (gl::Context::error_count() != errors_before) drawn.fault += "GL reported an error";
   return drawn;
 }

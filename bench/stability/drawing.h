@@ -26,8 +26,9 @@ struct Drawing {
 };
 
 struct Drawn {
-  reference::Truth truth;  // of the positions, over the ROI diagonal
-  std::string fault;       // empty, or the buffer that has a number that is not finite, or GL's complaint
+  reference::Truth truth;              // of the positions, over the ROI diagonal
+  double mean_ao = 0, largest_ao = 0;  // over pixels with a surface
+  std::string fault;                   // empty, or the buffer that has a number that is not finite, or GL's complaint
 };
 
 // Draws colour, position, normal, ambient occlusion and depth. Errors: those of the renderer, by name.

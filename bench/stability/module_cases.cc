@@ -3,7 +3,7 @@
 #include "base/log.h"
 #include "bench/stability/drawing.h"
 #include "bench/stability/groups.h"
-#include "calibration/make.h"
+#include "rendernode/geometry/clip_map.h"
 
 namespace lfd::bench {
 namespace {
@@ -79,6 +79,17 @@ void add_sizes(StabilityCases& cases) {
   cases.push_back(drawn_true(kGroup, "4 x 8192 pixels", [sized] { return sized({4, 8192}); }));
 }
 
+void add_homographies(StabilityCases& cases) {
+  for (const double scale : {1e-100, 1e-30, 1e30, 1e100}) {
+    cases.push_back(
+        drawn_true(kGroup, fmt::format("a homography whose numbers are all {:g} times larger", scale), [scale] {
+          DisplayCalibration display = small_display();
+          display.modules[0].map = HomographyMap{scale * ideal_homography(display.screen, display.image)};
+          return with_display(display);
+        }));
+  }
+}
+
 void add_screens(StabilityCases& cases) {
   for (const double scale : {1e-2, 1e2, 2e3}) {
     cases.push_back(drawn_true(kGroup, fmt::format("a display {:g} times as large", scale), [scale] {
@@ -106,6 +117,7 @@ void add_module_cases(StabilityCases& cases) {
   add_heights(cases);
   add_radii(cases);
   add_sizes(cases);
+  add_homographies(cases);
   add_screens(cases);
 }
 

@@ -132,8 +132,7 @@ void add_limits(StabilityCases& cases) {
 }  // namespace
 
 void add_triangle_cases(StabilityCases& cases) {
-  cases.push_back(
-      picture_like("without an area, not finite", degenerate, [] { return std::vector<Corners>(); }));
+  cases.push_back(picture_like("without an area, not finite", degenerate, [] { return std::vector<Corners>(); }));
   for (const float size_m : {1e-20F, 1e-30F, 1e-38F, 1e-44F}) {
     cases.push_back(picture(fmt::format("of {:g} m", size_m), [size_m] { return at_origin(size_m); }));
   }
