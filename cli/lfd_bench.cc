@@ -11,6 +11,7 @@
 #include "bench/frame/print.h"
 #include "bench/map/map_bench.h"
 #include "cli/lfd_commands.h"
+#include "proto/settings.h"
 
 namespace lfd {
 namespace {
@@ -22,12 +23,6 @@ struct Arguments {
   std::filesystem::path out;
   bool json = false;
 };
-
-void set_vector(proto::Vector& to, double x, double y, double z) {
-  to.set_x(x);
-  to.set_y(y);
-  to.set_z(z);
-}
 
 // Nothing is left behind that would have to be tidied up, and frames cannot be interrupted otherwise.
 void end_by_signal(int) {
@@ -47,8 +42,7 @@ int bench_frame(Arguments& a) {
   if (!a.display.empty()) a.options.overrides.display = a.display;
   if (!a.roi.empty()) {
     proto::RegionOfInterest& roi = a.options.roi.emplace();
-    set_vector(*roi.mutable_world_centre(), a.roi[0], a.roi[1], a.roi[2]);
-    set_vector(*roi.mutable_world_size(), a.roi[3], a.roi[4], a.roi[5]);
+    set_box(*roi.mutable_world_centre(), *roi.mutable_world_size(), a.roi);
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_by_signal);
   if (const Status possible = bench::check_options(a.options); !possible) return wrong_use(possible.error());

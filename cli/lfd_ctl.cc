@@ -11,6 +11,7 @@
 #include "cli/runtime_file.h"
 #include "cli/status_table.h"
 #include "proto/endpoint.h"
+#include "proto/settings.h"
 
 namespace lfd {
 namespace {
@@ -63,15 +64,6 @@ Status print_status(const Arguments& arguments) {
   LFD_TRY(const proto::Status status, ask_status(arguments));
   std::cout << status_table(status);
   return {};
-}
-
-void set_box(proto::Vector& centre, proto::Vector& size, const std::vector<double>& numbers) {
-  centre.set_x(numbers[0]);
-  centre.set_y(numbers[1]);
-  centre.set_z(numbers[2]);
-  size.set_x(numbers[3]);
-  size.set_y(numbers[4]);
-  size.set_z(numbers[5]);
 }
 
 Status change_roi(const Arguments& arguments) {

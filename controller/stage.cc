@@ -7,11 +7,6 @@
 #include "proto/settings.h"
 
 namespace lfd::controller {
-namespace {
-
-Point3<World> point_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
-
-}  // namespace
 
 Stage::Stage(const Deployment& deployment)
     : screen_(deployment.display.screen),
@@ -27,8 +22,7 @@ Result<Stage> Stage::of(const Deployment& deployment) {
 }
 
 Result<RegionOfInterest> Stage::complete(const proto::RegionOfInterest& wish, const proto::Scene& scene) const {
-  return complete_roi(wish, point_from(scene.bounds_low()), point_from(scene.bounds_high()), screen_.width_m,
-                      screen_.height_m);
+  return complete_roi(wish, scene, screen_);
 }
 
 Result<proto::Update> Stage::show(LoadedScene scene) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/check.h"
 #include "base/log.h"
 
 namespace lfd {
@@ -133,6 +134,18 @@ Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, Po
     set_vector(m.mutable_physical_size(), size * std::min(screen_width_m / size.x, screen_height_m / size.y));
   }
   return read_roi(m);
+}
+
+Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, const proto::Scene& scene,
+                                      ScreenSize screen) {
+  return complete_roi(message, point_from<World>(scene.bounds_low()), point_from<World>(scene.bounds_high()),
+                      screen.width_m, screen.height_m);
+}
+
+void set_box(proto::Vector& centre, proto::Vector& size, std::span<const double> numbers) {
+  LFD_CHECK(numbers.size() == 6, "a box is centre and edge lengths");
+  set_vector(&centre, glm::dvec3(numbers[0], numbers[1], numbers[2]));
+  set_vector(&size, glm::dvec3(numbers[3], numbers[4], numbers[5]));
 }
 
 }  // namespace lfd

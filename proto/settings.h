@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "base/result.h"
+#include "calibration/maps/ideal.h"
 #include "calibration/spaces/roi.h"
+#include "proto/scene.pb.h"
 #include "proto/settings.pb.h"
 
 namespace lfd {
@@ -60,5 +63,11 @@ proto::RegionOfInterest write_roi(const RegionOfInterest& roi);
 // screen (fit_to_screen of calibration/spaces/roi.h). A missing orientation is unturned.
 Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, Point3<World> low, Point3<World> high,
                                       double screen_width_m, double screen_height_m);
+// The same with the bounds that the scene says it has.
+Result<RegionOfInterest> complete_roi(const proto::RegionOfInterest& message, const proto::Scene& scene,
+                                      ScreenSize screen);
+
+// Writes a box of exactly six numbers: centre x, y, z and edge lengths x, y, z.
+void set_box(proto::Vector& centre, proto::Vector& size, std::span<const double> numbers);
 
 }  // namespace lfd

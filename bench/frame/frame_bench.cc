@@ -25,15 +25,11 @@ std::string scene_name(const Deployment& deployment) {
   return fmt::format("{} (made, seed {})", made.name(), made.seed());
 }
 
-Point3<World> point_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
-
 // The scene at rest, whole or as the region of interest says, with ambient occlusion; the planner is on.
 Result<proto::State> state_of(const Deployment& deployment, const FrameBenchOptions& options,
                               const proto::Scene& scene) {
-  const ScreenSize screen = deployment.display.screen;
   LFD_TRY(const RegionOfInterest roi,
-          complete_roi(options.roi.value_or(deployment.message.roi()), point_from(scene.bounds_low()),
-                       point_from(scene.bounds_high()), screen.width_m, screen.height_m));
+          complete_roi(options.roi.value_or(deployment.message.roi()), scene, deployment.display.screen));
   proto::State state;
   state.set_sequence(1);
   *state.mutable_scene() = scene;

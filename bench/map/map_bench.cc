@@ -36,8 +36,6 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-Point3<World> point_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
-
 Result<LoadedScene> load(const Deployment& deployment) {
   if (deployment.scene_file) return load_scene(*deployment.scene_file);
   const auto& made = deployment.message.scene().made();
@@ -45,9 +43,7 @@ Result<LoadedScene> load(const Deployment& deployment) {
 }
 
 Result<proto::State> state_of(const Deployment& deployment, const proto::Scene& scene, const MapVariant& variant) {
-  const ScreenSize screen = deployment.display.screen;
-  LFD_TRY(const RegionOfInterest roi, complete_roi(deployment.message.roi(), point_from(scene.bounds_low()),
-                                                   point_from(scene.bounds_high()), screen.width_m, screen.height_m));
+  LFD_TRY(const RegionOfInterest roi, complete_roi(deployment.message.roi(), scene, deployment.display.screen));
   proto::State state;
   state.set_sequence(1);
   *state.mutable_scene() = scene;

@@ -7,6 +7,7 @@
 #include "base/signals.h"
 #include "calibration/check/acceptance.h"
 #include "controller/daemon/daemon.h"
+#include "proto/settings.h"
 
 namespace lfd::controller {
 namespace {
@@ -47,12 +48,6 @@ void add_options(CLI::App& app, Arguments& a) {
   add_log_level(app, a.log_level);
 }
 
-void set_vector(proto::Vector& to, double x, double y, double z) {
-  to.set_x(x);
-  to.set_y(y);
-  to.set_z(z);
-}
-
 // Refuses a calibration that misses the limits, unless it is to be accepted all the same; then it warns.
 Status judge_calibration(const Arguments& a, const Deployment& deployment) {
   const Status judged = accept_calibration(deployment.display);
@@ -75,8 +70,7 @@ Result<Deployment> read_deployment(const Arguments& a) {
   if (!a.roi.empty()) {
     proto::RegionOfInterest& roi = *deployment.message.mutable_roi();
     roi.Clear();
-    set_vector(*roi.mutable_world_centre(), a.roi[0], a.roi[1], a.roi[2]);
-    set_vector(*roi.mutable_world_size(), a.roi[3], a.roi[4], a.roi[5]);
+    set_box(*roi.mutable_world_centre(), *roi.mutable_world_size(), a.roi);
   }
   if (a.plan == "everything") deployment.message.mutable_render()->set_planner(proto::RenderSettings::EVERYTHING);
   if (a.plan == "needed") deployment.message.mutable_render()->set_planner(proto::RenderSettings::PLAN);
