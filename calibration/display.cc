@@ -43,6 +43,9 @@ std::optional<ScreenPoint> pinhole_on_screen(const Optics& optics, const Pinhole
 
 Status validate_module(const ModuleCalibration& module) {
   LFD_TRY_STATUS(validate(module.emitter));
+  if (module.color) {
+    if (auto status = validate(*module.color); !status) return status.error().within("color");
+  }
   return std::visit([](const auto& map) { return validate_map(map); }, module.map);
 }
 

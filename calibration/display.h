@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "calibration/color.h"
 #include "calibration/maps/grid.h"
 #include "calibration/maps/homography.h"
 #include "calibration/maps/ideal.h"
@@ -22,6 +23,7 @@ using ScreenMap = std::variant<IdealMap, HomographyMap, PinholeMap, GridMap>;
 struct ModuleCalibration {
   Emitter emitter;
   ScreenMap map;
+  std::optional<ColorCalibration> color = {};  // absent: the module shows sRGB as it is
   bool operator==(const ModuleCalibration&) const = default;
 };
 

@@ -140,7 +140,8 @@ DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t se
     if (!std::holds_alternative<IdealMap>(module.map)) continue;
     const PinholeMap map =
         with_errors(pinhole_of_ideal(display.screen, display.image, module.emitter), display.image, random);
-    module = {map.position, map};
+    module.emitter = map.position;
+    module.map = map;
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "proto/color_message.h"
 #include "proto/text_file.h"
 
 namespace lfd {
@@ -89,7 +90,12 @@ Result<ScreenMap> read_map(const proto::Module& m) {
 Result<ModuleCalibration> read_module(const proto::Module& m) {
   if (!m.has_emitter()) return Error("emitter: is missing");
   LFD_TRY(ScreenMap map, read_map(m));
-  return ModuleCalibration{read_point(m.emitter()), map};
+  ModuleCalibration module{read_point(m.emitter()), map};
+  if (!m.has_color()) return module;
+  auto color = read_color(m.color());
+  if (!color) return color.error().within("color");
+  module.color = *std::move(color);
+  return module;
 }
 
 void write_map(proto::Module& m, const IdealMap&) { m.mutable_ideal(); }
@@ -171,6 +177,7 @@ proto::DisplayCalibration write_calibration(const DisplayCalibration& display) {
     auto& to = *m.add_module();
     write_point(*to.mutable_emitter(), module.emitter);
     std::visit([&to](const auto& map) { write_map(to, map); }, module.map);
+    if (module.color) *to.mutable_color() = write_color(*module.color);
   }
   return m;
 }
