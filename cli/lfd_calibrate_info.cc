@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/log.h"
+#include "cli/color_text.h"
 #include "cli/lfd_calibrate.h"
 #include "proto/calibration_file.h"
 
@@ -56,6 +57,7 @@ int run_info(const std::string& file) {
   print_line("emitters z", span_of(*display, &Point3<Physical>::z));
   print_line("angular scattering", fmt::format("{:.6g} rad ({:.4g} degrees)", display->angular_scattering_rad,
                                                display->angular_scattering_rad * 180 / std::numbers::pi));
+  print_line("colour", color_text(*display));
   print_line("hash", calibration_hash(*display));
   return end_of_output();
 }

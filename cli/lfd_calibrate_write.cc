@@ -11,6 +11,7 @@
 #include "calibration/import/format.h"
 #include "calibration/import/mpcdi.h"
 #include "calibration/make.h"
+#include "calibration/make_color.h"
 #include "cli/lfd_calibrate.h"
 #include "proto/calibration_file.h"
 #include "proto/text_file.h"
@@ -20,7 +21,7 @@ namespace {
 
 struct MakeOptions {
   std::string name;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed, color_seed;
   std::optional<int> modules;
   std::string out;
 };
@@ -52,7 +53,9 @@ int run_make(const MakeOptions& options) {
     return wrong_use(near ? Error(fmt::format("{}; did you mean {}?", display.error().message(), *near))
                           : display.error());
   }
-  return write_display(options.seed ? perturbed(*display, *options.seed) : *display, options.out);
+  DisplayCalibration made = options.seed ? perturbed(*display, *options.seed) : *display;
+  if (options.color_seed) made = colored(made, *options.color_seed);
+  return write_display(made, options.out);
 }
 
 constexpr std::pair<const char*, ForeignFormat> kFormats[] = {
@@ -111,6 +114,10 @@ void add_make_command(CLI::App& app, int& exit_code) {
   command->add_option("NAME", options->name, "One of " + names)->required();
   command->add_option("--perturb", options->seed, "Add the errors of an installation by hand: pose, focal length, lens")
       ->check(seed_number())
+      ->type_name("SEED");
+  command
+      ->add_option("--color", options->color_seed,
+                   "Give every module a colour calibration: vignetting, gamma, primaries")
       ->type_name("SEED");
   command->add_option("--modules", options->modules, "So many modules within the same span")->type_name("N");
   command->add_option("--out", options->out, "File to write; standard output without it")->type_name("FILE");

@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "base/log.h"
+#include "display/module_light.h"
 #include "proto/pictures/srgb.h"
 
 namespace lfd::display {
@@ -22,13 +24,10 @@ struct Candidate {
   double log_weight;
 };
 
-struct Light {
-  double r = 0, g = 0, b = 0;
-};
-
 struct View {
   const DisplayCalibration& display;
   std::span<const Picture8* const> images;
+  std::vector<ModuleLight> lights;  // by module
   Eye eye;
   int width_px, height_px;
 
@@ -48,42 +47,48 @@ void find_candidates(const View& view, ScreenPoint s, std::vector<Candidate>& ca
   std::sort(candidates.begin(), candidates.end(), [](auto a, auto b) { return a.log_weight > b.log_weight; });
 }
 
+// What a module contributes at a point: the light it emits, and how much of it there would be in full light.
+struct Contribution {
+  glm::dvec3 emitted{0}, full{0};
+};
+
 // Bilinear in linear light between texel centres, the border texels continued outward.
-Light sample(const Picture8& image, PixelPoint p) {
-  const auto& linear = linear_from_srgb8();
+Contribution sample(const Picture8& image, const ModuleLight& light, PixelPoint p) {
   const double u = std::clamp(p.x - 0.5, 0.0, image.width - 1.0), v = std::clamp(p.y - 0.5, 0.0, image.height - 1.0);
   const int left = static_cast<int>(u), top = static_cast<int>(v);
   const int right = std::min(left + 1, image.width - 1), bottom = std::min(top + 1, image.height - 1);
   const double fu = u - left, fv = v - top;
-  Light light;
+  Contribution sum;
   const auto add = [&](int column, int row, double weight) {
-    const std::uint8_t* texel = &image.rgba[4 * (std::size_t(row) * image.width + column)];
-    light.r += weight * linear[texel[0]];
-    light.g += weight * linear[texel[1]];
-    light.b += weight * linear[texel[2]];
+    sum.emitted += weight * light.emitted(&image.rgba[4 * (std::size_t(row) * image.width + column)]);
+    sum.full += weight * light.gain({column, row});
   };
   add(left, top, (1 - fu) * (1 - fv));
   add(right, top, fu * (1 - fv));
   add(left, bottom, (1 - fu) * fv);
   add(right, bottom, fu * fv);
-  return light;
+  return sum;
 }
 
-Light blend(const View& view, ScreenPoint s, std::span<const Candidate> candidates) {
-  Light sum;
-  double weights = 0, best = 0;
+glm::dvec3 blend(const View& view, ScreenPoint s, std::span<const Candidate> candidates) {
+  Contribution sum;
+  std::optional<double> best;
   for (const auto& [module, log_weight] : candidates) {
-    if (weights > 0 && log_weight < best + kLogNegligible) break;
+    if (best && log_weight < *best + kLogNegligible) break;
     const auto pixel = image_from_screen(view.display, view.display.modules[module], s);
     if (!pixel) continue;
-    if (weights == 0) best = log_weight;
-    const double weight = std::exp(log_weight - best);
-    const Light light = sample(*view.images[module], *pixel);
-    sum = {sum.r + weight * light.r, sum.g + weight * light.g, sum.b + weight * light.b};
-    weights += weight;
+    const Contribution one = sample(*view.images[module], view.lights[module], *pixel);
+    if (one.full == glm::dvec3(0)) continue;
+    if (!best) best = log_weight;
+    const double weight = std::exp(log_weight - *best);
+    sum.emitted += weight * one.emitted;
+    sum.full += weight * one.full;
   }
-  if (weights == 0) return {};
-  return {sum.r / weights, sum.g / weights, sum.b / weights};
+  glm::dvec3 light(0);
+  for (int c = 0; c < 3; ++c) {
+    if (sum.full[c] > 0) light[c] = sum.emitted[c] / sum.full[c];
+  }
+  return light;
 }
 
 void write_row(const View& view, int row, std::span<const std::vector<Candidate>> by_column, Picture8& picture) {
@@ -91,7 +96,7 @@ void write_row(const View& view, int row, std::span<const std::vector<Candidate>
   for (int column = 0; column < view.width_px; ++column) {
     const ScreenPoint s = view.at(column, row);
     if (by_column.empty()) find_candidates(view, s, own);
-    const Light light = blend(view, s, by_column.empty() ? own : by_column[column]);
+    const glm::dvec3 light = blend(view, s, by_column.empty() ? own : by_column[column]);
     std::uint8_t* pixel = &picture.rgba[4 * (std::size_t(row) * view.width_px + column)];
     pixel[0] = srgb8_from_linear(light.r);
     pixel[1] = srgb8_from_linear(light.g);
@@ -147,7 +152,8 @@ double nearest_light_rad(const DisplayCalibration& display, const Eye& eye) {
 Result<Picture8> viewer_picture(const DisplayCalibration& display, std::span<const Picture8* const> images,
                                 const Eye& eye, int width_px, int height_px) {
   LFD_TRY_STATUS(check(display, images, eye, width_px, height_px));
-  const View view{display, images, eye, width_px, height_px};
+  View view{display, images, {}, eye, width_px, height_px};
+  for (const ModuleCalibration& module : display.modules) view.lights.emplace_back(module, display.image);
   // Horizontal angles are the same in all rows; of a conical diffuser they are not.
   std::vector<std::vector<Candidate>> by_column;
   if (display.optics.diffuser == Diffuser::kLinear) {

@@ -24,10 +24,11 @@ double nearest_light_rad(const DisplayCalibration& display, const Eye& eye);
 
 // The screen as `eye` sees it, rectified (of a curved one, unrolled): pixel (i, j) is the screen point ((i + 0.5) /
 // width_px - 0.5, 0.5 - (j + 0.5) / height_px) times the screen's size. images[m] is the colour image of module m
-// (sRGB, rows from the top), of the display's image size; null where there is none. Light is blended linearly; modules
-// without an image or without a pixel at a point are left out of it, and where none is left it is black. Alpha is 255.
-// Runs on all cores. Errors: not one entry per module, an image of another size, an eye that is not before the screen,
-// a size of 0 or absurd.
+// (what it is fed, rows from the top), of the display's image size; null where there is none. The light that modules
+// emit (display/module_light.h) is blended linearly, each channel divided by the sum of weights times gains. Modules
+// without an image, and without a pixel or with a gain of 0 at a point, are left out of it; where none is left it is
+// black. Alpha is 255. Runs on all cores. Errors: not one entry per module, an image of another size, an eye that is
+// not before the screen, a size of 0 or absurd.
 Result<Picture8> viewer_picture(const DisplayCalibration& display, std::span<const Picture8* const> images,
                                 const Eye& eye, int width_px, int height_px);
 

@@ -17,8 +17,8 @@
 
 namespace lfd {
 
-// One finished buffer of one module. bytes: rows from the top; COLOR is RGBA8 with the sRGB transfer, all others RGBA
-// float32.
+// One finished buffer of one module. bytes: rows from the top; COLOR is RGBA8 with the sRGB transfer, or with the
+// drives of the module's colour calibration; all others are RGBA float32.
 struct ModuleImage {
   std::uint32_t module = 0;
   proto::BufferKind kind = proto::COLOR;

@@ -96,6 +96,9 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.commands.name());
   if (in.modules.has_tables()) bind_texture(UNIT_PIXEL_TABLE, in.modules.pixel_tables.name());
   if (in.modules.warp_tables) bind_texture(UNIT_WARP_TABLE, in.modules.warp_tables.name());
+  if (!in.modules.colors) return;
+  bind(GL_UNIFORM_BUFFER, BINDING_COLORS, in.modules.colors->params);
+  bind(GL_SHADER_STORAGE_BUFFER, BINDING_COLOR_SAMPLES, in.modules.colors->samples);
 }
 
 Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
@@ -234,6 +237,7 @@ Status FramePasses::post(const FramePlan& plan, const CommandList& commands, con
   if (plan.ao) flags.emplace_back("READ_AO");
   if (plan.position && inputs.lights.facts.need_position) flags.emplace_back("READ_POSITION");
   if (plan.normal && inputs.lights.facts.need_normal) flags.emplace_back("READ_NORMAL");
+  if (plan.color) flags.emplace_back("COLOR");
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/post.frag"}, flags));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.color_framebuffer());

@@ -126,7 +126,7 @@ GpuModules upload_modules(const DisplayCalibration& display, const std::vector<s
     params.back().tangential.z = static_cast<float>(modules[i]);  // noise is the module's own, whichever node draws it
   }
   params.resize(MODULES_PER_NODE);
-  GpuModules gpu{gl::make_buffer(params), {}, {}};
+  GpuModules gpu{gl::make_buffer(params), {}, {}, upload_colors(display, modules)};
   if (!with_pixels.empty()) {
     gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(with_pixels.size()));
   }

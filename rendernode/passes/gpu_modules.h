@@ -7,6 +7,7 @@
 #include "calibration/display.h"
 #include "rendernode/geometry/warp_table.h"
 #include "rendernode/gl/objects.h"
+#include "rendernode/passes/gpu_colors.h"
 #include "shaders/shared/glsl_types.h"
 
 namespace lfd {
@@ -28,6 +29,7 @@ struct GpuModules {
   gl::Buffer params;         // array of MODULES_PER_NODE ModuleParams, one per layer
   gl::Texture pixel_tables;  // RG32F array: screen points of pixels; empty where no module needs one
   gl::Texture warp_tables;   // RG32F array: residuals of WarpTable; likewise
+  std::optional<GpuColors> colors;
   bool has_tables() const { return static_cast<bool>(pixel_tables); }
 };
 

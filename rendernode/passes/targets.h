@@ -25,7 +25,7 @@ class Targets {
   GLuint normal() const { return normal_.name(); }
   // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back.
   GLuint ao(int i) const { return ao_[i].name(); }
-  // SRGB8_ALPHA8, what the module shows. Without a post pass it is the albedo.
+  // SRGB8_ALPHA8, what the module is fed. Without a post pass it is the albedo.
   GLuint color(const FramePlan& plan) const { return plan.post ? color_.name() : albedo_.name(); }
 
   // Framebuffers over all layers. geometry: albedo, position, normal as the plan needs them, and depth.

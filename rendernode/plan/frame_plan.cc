@@ -51,8 +51,13 @@ class Planner {
         group.alpha_mask = material.alpha_mask;
         group.draws.push_back({i, layer});
       }
-      if (seen || everything_) plan_.active_layers.push_back(layer);
-      if (!seen && !everything_) leave_out("module", std::to_string(number), "no geometry in its view");
+      any_seen_ = any_seen_ || seen || everything_;
+      plan_.color = plan_.color || module.color.has_value();
+      if (seen || everything_ || module.color) {
+        plan_.active_layers.push_back(layer);
+      } else {
+        leave_out("module", std::to_string(number), "no geometry in its view");
+      }
       if (seen && unseen > 0)
         leave_out("draw", fmt::format("of module {}", number), "outside the module's view", unseen);
     }
@@ -65,7 +70,7 @@ class Planner {
   }
 
   void choose_passes() {
-    const bool any = !plan_.active_layers.empty();
+    const bool any = any_seen_;
     const bool lit = !in_.settings.unlit && std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
       return !(*in_.materials)[item.material].unlit;
     });
@@ -84,12 +89,14 @@ class Planner {
     plan_.blur = plan_.ao && in_.settings.ao.blur_enabled;
     if (!plan_.blur) leave_out("pass", "blur", plan_.ao ? "switched off" : "there is no ambient occlusion to blur");
 
-    plan_.post = everything_ || (any && lit);
+    if (!plan_.color) leave_out("correction", "colour", "no module has a colour calibration");
+    const bool lights = everything_ || (any && lit);
+    plan_.post = lights || plan_.color;
     if (!plan_.post) leave_out("pass", "post", any ? "every surface is unlit" : "no module sees geometry");
     plan_.position = everything_ || plan_.ao || in_.buffers.has(proto::POSITION) || in_.buffers.has(proto::DEPTH) ||
-                     in_.buffers.has(proto::AO) || (plan_.post && in_.lights.need_position);
+                     in_.buffers.has(proto::AO) || (lights && in_.lights.need_position);
     if (!plan_.position) leave_out("target", "position", "nothing reads it");
-    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (plan_.post && in_.lights.need_normal);
+    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (lights && in_.lights.need_normal);
     if (!plan_.normal) leave_out("target", "normal", "nothing reads it");
     choose_prepass(any, textured);
   }
@@ -106,6 +113,7 @@ class Planner {
 
   const PlanInputs& in_;
   const bool everything_;
+  bool any_seen_ = false;  // a module sees geometry
   FramePlan plan_;
 };
 

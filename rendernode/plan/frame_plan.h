@@ -1,5 +1,8 @@
 // Decides what a frame needs: which modules, draws, passes and targets, and why the others are left out.
 //
+// A module with a colour calibration is always drawn: what it must be fed to show the background differs from pixel to
+// pixel.
+//
 // It knows no GL: it is told the scene's items, the settings and what is asked for, and returns lists. Told to plan
 // everything, it leaves nothing out; the pictures are the same (a test holds that).
 #pragma once
@@ -61,6 +64,7 @@ struct FramePlan {
   std::vector<DrawGroup> groups;
   std::vector<std::uint32_t> active_layers;  // layers that anything is drawn into
   bool z_prepass = true, position = true, normal = true, ao = true, blur = true, post = true;
+  bool color = false;  // the post pass corrects colours: a module of the node has a colour calibration
   std::vector<proto::LeftOut> left_out;
 };
 

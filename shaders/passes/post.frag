@@ -1,6 +1,7 @@
-// Pass 6, post processing: lights, and ambient occlusion through its curve. The target applies the sRGB transfer.
+// Pass 6, post processing: lights, ambient occlusion through its curve, last the module's colour. The target applies the sRGB transfer.
 #version 450 core
 #include "shared/bindings.glsl"
+#include "shared/color_params.glsl"
 #include "shared/frame_params.glsl"
 #include "shared/light_params.glsl"
 #include "lib/curve.glsl"
@@ -12,6 +13,10 @@ layout(binding = UNIT_ALBEDO) uniform sampler2DArray albedo;
 layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
 layout(binding = UNIT_NORMAL) uniform sampler2DArray normals;
 layout(binding = UNIT_AO) uniform sampler2DArray ao;
+#ifdef COLOR
+#include "lib/color.glsl"
+layout(std140, binding = BINDING_COLORS) uniform Colors { ColorParams colors[MODULES_PER_NODE]; };
+#endif
 
 flat in int layer;
 layout(location = 0) out vec4 out_color;
@@ -30,15 +35,11 @@ vec3 lit(vec3 base, vec3 position, vec3 normal, float openness) {
   return base * light;
 }
 
-void main() {
-  ivec3 at = ivec3(gl_FragCoord.xy, layer);
+// What the pixel is meant to show, linear.
+vec3 light_of(ivec3 at) {
   vec4 base = texelFetch(albedo, at, 0);
-  if (base.a == 0.0) {
-    out_color = vec4(frame.background.rgb, 1.0);
-    return;
-  }
-  out_color = vec4(base.rgb, 1.0);
-  if (base.a < 0.75) return;  // unlit
+  if (base.a == 0.0) return frame.background.rgb;
+  if (base.a < 0.75) return base.rgb;  // unlit
   float openness = 1.0;
 #ifdef READ_AO
   openness = 1.0 - post_curve(max(texelFetch(ao, at, 0).r, 0.0), frame.ambient_occlusion.xyz);
@@ -50,6 +51,16 @@ void main() {
 #ifdef READ_NORMAL
   normal = normalize(texelFetch(normals, at, 0).xyz);
 #endif
-  out_color.rgb = lit(base.rgb, position, normal, openness);
-  if (frame.ambient_occlusion.w == 2.0) out_color.rgb *= openness;
+  vec3 light = lit(base.rgb, position, normal, openness);
+  return frame.ambient_occlusion.w == 2.0 ? light * openness : light;
+}
+
+void main() {
+  out_color = vec4(light_of(ivec3(gl_FragCoord.xy, layer)), 1.0);
+#ifdef COLOR
+  ColorParams color = colors[layer];
+  if (!has_color(color)) return;
+  vec3 gain = gain_at(color, gl_FragCoord.xy / vec2(textureSize(albedo, 0).xy));
+  out_color.rgb = stored_as(drive_for(color, gain, out_color.rgb));
+#endif
 }

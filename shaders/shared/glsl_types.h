@@ -12,6 +12,7 @@ using uint = std::uint32_t;
 
 #include "shaders/shared/ao_params.glsl"
 #include "shaders/shared/bindings.glsl"
+#include "shaders/shared/color_params.glsl"
 #include "shaders/shared/draw_record.glsl"
 #include "shaders/shared/frame_params.glsl"
 #include "shaders/shared/light_params.glsl"

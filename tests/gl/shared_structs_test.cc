@@ -29,6 +29,12 @@ struct Struct {
 std::vector<Struct> all_structs() {
   return {
       {"ao_params", "AoParams", sizeof(shared::AoParams), {LFD_AT(AoParams, radii)}},
+      {"color_params",
+       "ColorParams",
+       sizeof(shared::ColorParams),
+       {LFD_AT(ColorParams, device_from_display_0), LFD_AT(ColorParams, device_from_display_1),
+        LFD_AT(ColorParams, device_from_display_2), LFD_AT(ColorParams, black_level), LFD_AT(ColorParams, gain),
+        LFD_AT(ColorParams, curve_0), LFD_AT(ColorParams, curve_1), LFD_AT(ColorParams, curve_2)}},
       {"draw_record",
        "DrawRecord",
        sizeof(shared::DrawRecord),
@@ -135,7 +141,7 @@ Layout uniform_layout_of(const Struct& one) {
 
 // Those that shaders read from uniform blocks.
 bool is_uniform(const Struct& one) {
-  return std::set<std::string>{"AoParams", "FrameParams", "ModuleParams"}.contains(one.name);
+  return std::set<std::string>{"AoParams", "ColorParams", "FrameParams", "ModuleParams"}.contains(one.name);
 }
 
 TEST(SharedStructs, AreLaidOutAlikeInBothLanguages) {

@@ -82,6 +82,17 @@ TEST(LfdCalibrate, WrongUseSaysWhatWasMeant) {
   EXPECT_THAT(name.text, HasSubstr("did you mean desk?"));
 }
 
+TEST(LfdCalibrate, MakesColoursAndTellsOfThem) {
+  EXPECT_THAT(calibrate("info " + kDesk).text, HasSubstr("sRGB"));
+  const std::string file = testing::TempDir() + "lfd-calibrate-color.textproto";
+  EXPECT_EQ(calibrate("make desk --color 3 --out " + file).exit_code, 0);
+  const Answer info = calibrate("info " + file);
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_THAT(info.text, HasSubstr("8 of 8 modules corrected: gain 0."));
+  EXPECT_THAT(info.text, HasSubstr(", gamma 2."));
+  std::remove(file.c_str());
+}
+
 TEST(LfdCalibrate, ChecksAndRefuses) {
   EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
   const Answer strict = calibrate("check " + kDesk + " --min-coverage 1.5");

@@ -62,7 +62,8 @@ TEST_F(FramePlanning, ALitTexturedSceneNeedsEverything) {
   const FramePlan p = plan();
   EXPECT_TRUE(p.z_prepass && p.position && p.normal && p.ao && p.blur && p.post);
   EXPECT_EQ(p.active_layers, (std::vector<std::uint32_t>{0, 1, 2, 3}));
-  EXPECT_TRUE(p.left_out.empty());
+  EXPECT_EQ(p.left_out.size(), 1U);
+  EXPECT_EQ(why(p, "correction", "colour"), "no module has a colour calibration");
 }
 
 TEST_F(FramePlanning, ModulesThatSeeNothingAreLeftOut) {
@@ -177,6 +178,28 @@ TEST_F(FramePlanning, MaskedGroupsComeLastAndGroupsShareTextures) {
   EXPECT_TRUE(p.groups[1].alpha_mask && p.groups[2].alpha_mask);
 }
 
+TEST_F(FramePlanning, ColourNeedsPostProcessingOfUnlitScenesButNeitherLightsNorOcclusion) {
+  settings_.unlit = true;
+  display_.modules[2].color.emplace();
+  const FramePlan p = plan();
+  EXPECT_TRUE(p.color && p.post);
+  EXPECT_FALSE(p.ao || p.blur || p.position || p.normal);
+  EXPECT_EQ(why(p, "correction", "colour"), "not left out");
+  modules_ = {0, 1, 3};
+  EXPECT_FALSE(plan().color || plan().post) << "that module is another node's";
+}
+
+TEST_F(FramePlanning, AModuleWithColourIsDrawnEvenWhereItSeesNothing) {
+  items_.clear();
+  display_.modules[2].color.emplace();
+  const FramePlan p = plan();
+  EXPECT_EQ(p.active_layers, std::vector<std::uint32_t>{2});
+  EXPECT_TRUE(p.color && p.post);
+  EXPECT_FALSE(p.z_prepass || p.ao || p.blur || p.position || p.normal);
+  EXPECT_EQ(why(p, "module", "1"), "no geometry in its view");
+  EXPECT_EQ(why(p, "module", "2"), "not left out");
+}
+
 TEST_F(FramePlanning, EverythingLeavesNothingOut) {
   settings_.plan = false;
   items_[0].low = {50, 50, 0};
@@ -188,8 +211,9 @@ TEST_F(FramePlanning, EverythingLeavesNothingOut) {
   EXPECT_EQ(p.active_layers.size(), 4U);
   ASSERT_EQ(p.groups.size(), 1U);
   EXPECT_EQ(p.groups[0].draws.size(), 4U);
-  EXPECT_THAT(p.left_out, testing::Each(testing::Property(&proto::LeftOut::what, testing::Eq("texture"))))
-      << "a texture that no material has cannot be drawn";
+  EXPECT_THAT(p.left_out,
+              testing::Each(testing::Property(&proto::LeftOut::what, testing::AnyOf("texture", "correction"))))
+      << "a texture that no material has cannot be drawn, a colour that no module has cannot be corrected";
 }
 
 // The bounds of the view may be generous; they may never lose a point that has an image.
