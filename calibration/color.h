@@ -71,12 +71,13 @@ Status validate(const ColorCalibration& color);
 
 glm::dvec3 gain_at(const GainMap& map, ImageSize image, PixelPoint p);
 
+// Of light and drive from 0 to 1.
 double drive_from_light(const TransferCurve& curve, double light);
 
 // The least light that has the drive; 0 below the curve's first drive, 1 above its last.
 double light_from_drive(const TransferCurve& curve, double drive);
 
-// The equations above.
+// The equations above; all numbers are finite.
 glm::dvec3 drive_for(const ColorCalibration& color, glm::dvec3 gain, glm::dvec3 light);
 glm::dvec3 emitted_by(const ColorCalibration& color, glm::dvec3 drive);
 

@@ -23,7 +23,7 @@ float drive_from_light(vec4 curve, float light) {
   if (curve.x == 1.0) return pow(light, curve.y);
   if (curve.x == 0.0) return light <= 0.0031308 ? light * 12.92 : 1.055 * pow(light, 1.0 / 2.4) - 0.055;
   float place = light * (curve.z - 1.0);
-  int first = min(int(place), int(curve.z) - 2), at = int(curve.y) + first;
+  int first = clamp(int(place), 0, int(curve.z) - 2), at = int(curve.y) + first;
   return mix(color_samples[at], color_samples[at + 1], place - float(first));
 }
 
