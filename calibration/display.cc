@@ -1,29 +1,42 @@
 // The product of optics and map, with every limit.
 #include "calibration/display.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <numbers>
+#include <tuple>
 #include <type_traits>
 
-#include "base/log.h"
 #include "calibration/curved_screen.h"
+#include "calibration/limits.h"
 
 namespace lfd {
 namespace {
 
-Status validate_map(const IdealMap&) { return {}; }
+Status validate_map(const DisplayCalibration&, const IdealMap&) { return {}; }
 
-Status validate_map(const HomographyMap& map) {
+// Taken as a map of the unit square to the unit square, it must leave of the square's area at least 1e-12: less is
+// beyond what the GPU's single precision can draw.
+Status validate_map(const DisplayCalibration& display, const HomographyMap& map) {
   if (auto status = validate(map); !status) return status.error().within("homography");
-  return {};
+  const glm::dmat3 unit_from_image(glm::dvec3(1.0 / display.image.width, 0, 0),
+                                   glm::dvec3(0, 1.0 / display.image.height, 0), glm::dvec3(0, 0, 1));
+  const glm::dmat3 screen_from_unit(glm::dvec3(display.screen.width_m, 0, 0), glm::dvec3(0, display.screen.height_m, 0),
+                                    glm::dvec3(0, 0, 1));
+  const glm::dmat3 unit_from_unit = unit_from_image * map.image_from_screen * screen_from_unit;
+  double largest = 0;
+  for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(unit_from_unit[column]));
+  if (std::abs(glm::determinant(unit_from_unit / largest)) > 1e-12) return {};
+  return Error("homography: h: the screen is shrunk to a point or a line of the image, beyond single precision");
 }
 
-Status validate_map(const PinholeMap& map) {
+Status validate_map(const DisplayCalibration&, const PinholeMap& map) {
   if (auto status = validate(map); !status) return status.error().within("pinhole");
   return {};
 }
 
-Status validate_map(const GridMap&) { return {}; }  // was checked when it was made
+Status validate_map(const DisplayCalibration&, const GridMap&) { return {}; }  // was checked when it was made
 
 // Where the pinhole's ray of a pixel crosses the screen toward the viewer.
 std::optional<ScreenPoint> pinhole_on_screen(const Optics& optics, const PinholeMap& map, PixelPoint p) {
@@ -41,22 +54,24 @@ std::optional<ScreenPoint> pinhole_on_screen(const Optics& optics, const Pinhole
   return ScreenPoint{*s, map.position.y + *distance * (direction->y / horizontal)};
 }
 
-Status validate_module(const ModuleCalibration& module) {
+Status validate_module(const DisplayCalibration& display, const ModuleCalibration& module) {
   LFD_TRY_STATUS(validate(module.emitter));
   if (module.color) {
     if (auto status = validate(*module.color); !status) return status.error().within("color");
   }
-  return std::visit([](const auto& map) { return validate_map(map); }, module.map);
+  return std::visit([&](const auto& map) { return validate_map(display, map); }, module.map);
 }
 
 }  // namespace
 
 Status validate(const DisplayCalibration& display) {
-  for (const auto& [name, value] :
-       {std::pair{"screen: width_m", display.screen.width_m}, std::pair{"screen: height_m", display.screen.height_m},
-        std::pair{"angular_scattering_rad", display.angular_scattering_rad}}) {
+  for (const auto& [name, value, limits] :
+       {std::tuple{"screen: width_m", display.screen.width_m, kScreenSide_m},
+        {"screen: height_m", display.screen.height_m, kScreenSide_m},
+        {"angular_scattering_rad", display.angular_scattering_rad, kScattering_rad}}) {
     if (!(value > 0) || !std::isfinite(value))
       return Error(fmt::format("{}: {} must be positive and finite", name, value));
+    LFD_TRY_STATUS(check_magnitude(name, value, limits));
   }
   for (const auto& [name, value] :
        {std::pair{"image: width_px", display.image.width}, std::pair{"image: height_px", display.image.height}}) {
@@ -74,7 +89,7 @@ Status validate(const DisplayCalibration& display) {
     return Error(fmt::format("module: {} of them; 1 to {} are possible", display.modules.size(), kMaxModules));
   }
   for (std::size_t k = 0; k < display.modules.size(); ++k) {
-    if (auto status = validate_module(display.modules[k]); !status) {
+    if (auto status = validate_module(display, display.modules[k]); !status) {
       return status.error().within(fmt::format("module {}", k));
     }
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/log.h"
 #include "calibration/curved_screen.h"
+#include "calibration/limits.h"
 
 namespace lfd {
 namespace {
@@ -81,11 +81,14 @@ Status validate(const Optics& optics) {
     return Error(
         fmt::format("observer_distance_m: {} must be positive and finite: the observer stands before the screen", vz));
   }
+  LFD_TRY_STATUS(check_magnitude("observer_height_m", optics.observer_height_m, kPlace_m));
+  LFD_TRY_STATUS(check_magnitude("observer_distance_m", vz, kObserverDistance_m));
   if (!std::isfinite(optics.screen_radius_m)) return Error("screen_radius_m: must be finite; 0 is a planar screen");
   if (optics.screen_radius_m == 0) {
     if (optics.observer_arc) return Error("observer_arc: a planar screen has no concentric arcs");
     return {};
   }
+  LFD_TRY_STATUS(check_magnitude("screen_radius_m", optics.screen_radius_m, kScreenRadius_m));
   if (optics.diffuser == Diffuser::kConical) {
     return Error("diffuser: CONICAL on a curved screen is not supported; curved screens have linear diffusers");
   }
@@ -103,7 +106,9 @@ Status validate(const Emitter& emitter) {
   if (!is_finite(emitter)) return Error("emitter: must be finite");
   if (!(emitter.z < 0))
     return Error(fmt::format("emitter: z = {} must be negative: it stands behind the screen", emitter.z));
-  return {};
+  LFD_TRY_STATUS(check_magnitude("emitter: x", emitter.x, kPlace_m));
+  LFD_TRY_STATUS(check_magnitude("emitter: y", emitter.y, kPlace_m));
+  return check_magnitude("emitter: z", emitter.z, kEmitterDistance_m);
 }
 
 double convergence(const Optics& optics, const Emitter& emitter, double sy) {

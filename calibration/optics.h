@@ -47,10 +47,11 @@ struct PixelLine {
 };
 
 // Refuses an observer not in front of the screen, a conical diffuser on a curved screen, an observer arc beyond the
-// axis of a concave one, and numbers that are not finite; an error names the field.
+// axis of a concave one, and numbers that are not finite or beyond calibration/limits.h; an error names the field.
 Status validate(const Optics& optics);
 
-// Refuses an emitter not behind the screen and numbers that are not finite; an error begins with "emitter: ".
+// Refuses an emitter not behind the screen and numbers that are not finite or beyond calibration/limits.h; an error
+// begins with "emitter: ".
 Status validate(const Emitter& emitter);
 
 // k of the equations above for a screen point at height `sy`, always > 0.

@@ -10,6 +10,7 @@
 #include "bench/frame/frame_bench.h"
 #include "bench/frame/print.h"
 #include "bench/map/map_bench.h"
+#include "bench/stability/suite.h"
 #include "cli/lfd_commands.h"
 #include "proto/settings.h"
 
@@ -96,6 +97,38 @@ void add_map_command(CLI::App& bench, int& exit_code) {
   map->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
 }
 
+struct StabilityArguments {
+  int gpu = -1;
+  std::filesystem::path out;
+  bool json = false;
+};
+
+int bench_stability(const StabilityArguments& a) {
+  const auto table = bench::run_stability(a.gpu);
+  if (!table) return fail(table.error());
+  if (!a.out.empty()) {
+    for (const auto& [name, content] :
+         {std::pair{"stability.md", bench::text_of(*table)}, std::pair{"stability.csv", bench::csv_of(*table)},
+          std::pair{"stability.json", bench::json_of(*table)}}) {
+      if (const Status written = write_file(a.out / name, content); !written) return fail(written.error());
+    }
+  }
+  std::cout << (a.json ? bench::json_of(*table) : bench::text_of(*table));
+  const int printed = end_of_output();
+  return table->missed().empty() ? printed : kExitFailed;
+}
+
+void add_bench_stability(CLI::App& bench, int& exit_code) {
+  auto arguments = std::make_shared<StabilityArguments>();
+  CLI::App* stability =
+      add_command(bench, "stability", "Run the cases at the driver's numerical edges; exit code 1 where one misses",
+                  exit_code, [arguments] { return bench_stability(*arguments); });
+  stability->add_option("--out", arguments->out, "Folder for stability.md, stability.csv and stability.json");
+  stability->add_option("--gpu", arguments->gpu,
+                        "Number in lfd-rendernode --list-gpus (default: the first that works)");
+  stability->add_flag("--json", arguments->json, "Print JSON instead of the table");
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
@@ -125,6 +158,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   frame->add_option("--ao-seed", a.options.ao_subset.seed, "Seed of both choices")->capture_default_str();
   frame->add_option("--out", a.out, "Folder for frame.txt, frame.csv and frame.json");
   frame->add_flag("--json", a.json, "Print JSON instead of the table");
+  add_bench_stability(*bench, exit_code);
 }
 
 }  // namespace lfd

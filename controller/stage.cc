@@ -7,6 +7,15 @@
 #include "proto/settings.h"
 
 namespace lfd::controller {
+namespace {
+
+// Settings that can be drawn with this region of interest.
+Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi) {
+  LFD_TRY(const RenderSettings settings, read_settings(render));
+  return check_radius(settings.ao, roi);
+}
+
+}  // namespace
 
 Stage::Stage(const Deployment& deployment)
     : screen_(deployment.display.screen),
@@ -26,7 +35,9 @@ Result<RegionOfInterest> Stage::complete(const proto::RegionOfInterest& wish, co
 }
 
 Result<proto::Update> Stage::show(LoadedScene scene) {
-  LFD_TRY(roi_, complete(wished_roi_, scene.data.scene));
+  LFD_TRY(const RegionOfInterest roi, complete(wished_roi_, scene.data.scene));
+  LFD_TRY_STATUS(check_together(render_, roi));
+  roi_ = roi;
   proto::Update update;
   *update.mutable_scene() = scene.data.scene;
   *update.mutable_roi() = write_roi(roi_);
@@ -37,7 +48,9 @@ Result<proto::Update> Stage::show(LoadedScene scene) {
 
 Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
   if (!has_scene()) return Error("no scene is there yet");
-  LFD_TRY(roi_, complete(wish, scene_->data.scene));
+  LFD_TRY(const RegionOfInterest roi, complete(wish, scene_->data.scene));
+  LFD_TRY_STATUS(check_together(render_, roi));
+  roi_ = roi;
   wished_roi_ = wish;
   proto::Update update;
   *update.mutable_roi() = write_roi(roi_);
@@ -46,7 +59,7 @@ Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
 
 Result<proto::Update> Stage::set_render(const proto::RenderSettings& render) {
   if (!has_scene()) return Error("no scene is there yet");
-  if (auto settings = read_settings(render); !settings) return settings.error();
+  LFD_TRY_STATUS(check_together(render, roi_));
   render_ = render;
   proto::Update update;
   *update.mutable_render() = render_;

@@ -31,7 +31,7 @@ glm::dvec3 size_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
 Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
   AoSettings ao;
   if (m.has_enabled()) ao.enabled = m.enabled();
-  LFD_TRY_STATUS(check_range("ao.radius_m", m.radius_m(), 0, 1e30));
+  LFD_TRY_STATUS(check_range("ao.radius_m", m.radius_m(), 0, 1e15));
   LFD_TRY_STATUS(check_range("ao.radius_roi", m.radius_roi(), 0, 1e6));
   LFD_TRY_STATUS(check_range("ao.samples", m.samples(), 0, 256));
   LFD_TRY_STATUS(check_range("ao.radii", m.radii(), 0, 8));
@@ -94,6 +94,13 @@ Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
   }
   settings.unlit = m.unlit();
   return settings;
+}
+
+Status check_radius(const AoSettings& ao, const RegionOfInterest& roi) {
+  const double radius_m = ao.radius_in_world_m(roi.diagonal_m());
+  if (!ao.enabled || radius_m >= kLeastAoRadius * roi.diagonal_m()) return {};
+  return Error(fmt::format("ao: the radius of {:g} m is less than {:g} of the region of interest's diagonal, {:g} m",
+                           radius_m, kLeastAoRadius, roi.diagonal_m()));
 }
 
 Result<RegionOfInterest> read_roi(const proto::RegionOfInterest& m) {

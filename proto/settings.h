@@ -55,6 +55,11 @@ struct RenderSettings {
 // Errors name the field: "ao.samples: 1000; 1 to 256 are possible".
 Result<RenderSettings> read_settings(const proto::RenderSettings& message);
 
+// Refuses a radius of ambient occlusion that is nothing beside the region of interest: less than kLeastAoRadius of its
+// diagonal, at which the roundings of stored positions decide what is hidden (measured by bench/stability).
+inline constexpr double kLeastAoRadius = 1e-7;
+Status check_radius(const AoSettings& ao, const RegionOfInterest& roi);
+
 // A complete region of interest (every box given). Errors name the field.
 Result<RegionOfInterest> read_roi(const proto::RegionOfInterest& message);
 proto::RegionOfInterest write_roi(const RegionOfInterest& roi);

@@ -34,6 +34,7 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   const auto start = Clock::now();
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   LFD_TRY(const RegionOfInterest roi, read_roi(state.roi()));
+  LFD_TRY_STATUS(check_radius(settings.ao, roi));
   const bool first = !state_.has_value();
   const bool new_tables = first || settings.warp_level != settings_.warp_level;
   const bool new_rule = new_tables || settings.subdivision_px != settings_.subdivision_px ||

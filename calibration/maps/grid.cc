@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
-#include "base/log.h"
+#include "calibration/limits.h"
 #include "calibration/maps/bicubic_patch.h"
 
 namespace lfd {
@@ -82,10 +82,12 @@ Status check_nodes(const GridNodes& nodes) {
   for (const auto& [name, value] : {std::pair{"step_u_px", nodes.step_u_px}, std::pair{"step_v_px", nodes.step_v_px}}) {
     if (!(value > 0) || !std::isfinite(value))
       return Error(fmt::format("{}: {} must be positive and finite", name, value));
+    LFD_TRY_STATUS(check_magnitude(name, value, kGridStep_px));
   }
   for (const auto& [name, value] :
        {std::pair{"first_u_px", nodes.first_u_px}, std::pair{"first_v_px", nodes.first_v_px}}) {
     if (!std::isfinite(value)) return Error(fmt::format("{}: must be finite", name));
+    LFD_TRY_STATUS(check_magnitude(name, value, kPlace_px));
   }
   for (int row = 0; row < nodes.rows; ++row) {
     for (int column = 0; column < nodes.columns; ++column) LFD_TRY_STATUS(check_node(nodes, column, row));

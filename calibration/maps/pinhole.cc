@@ -9,7 +9,7 @@
 #include <limits>
 #include <tuple>
 
-#include "base/log.h"
+#include "calibration/limits.h"
 
 namespace lfd {
 
@@ -99,15 +99,23 @@ std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
 
 Status validate(const PinholeMap& map) {
   if (!is_finite(map.position)) return Error("position: must be finite");
+  for (const double place : {map.position.x, map.position.y, map.position.z}) {
+    LFD_TRY_STATUS(check_magnitude("position", place, kPlace_m));
+  }
   for (const auto& [name, value] : {std::pair{"focal_u_px", map.focal_u_px}, std::pair{"focal_v_px", map.focal_v_px}}) {
     if (!(value > 0) || !std::isfinite(value))
       return Error(fmt::format("{}: {} must be positive and finite", name, value));
+    LFD_TRY_STATUS(check_magnitude(name, value, kFocalLength_px));
   }
-  for (const auto& [name, value] :
-       {std::pair{"principal_u_px", map.principal_u_px}, std::pair{"principal_v_px", map.principal_v_px},
-        std::pair{"k1", map.k1}, std::pair{"k2", map.k2}, std::pair{"k3", map.k3}, std::pair{"p1", map.p1},
-        std::pair{"p2", map.p2}}) {
+  for (const auto& [name, value, limits] : {std::tuple{"principal_u_px", map.principal_u_px, kPlace_px},
+                                            {"principal_v_px", map.principal_v_px, kPlace_px},
+                                            {"k1", map.k1, kDistortion},
+                                            {"k2", map.k2, kDistortion},
+                                            {"k3", map.k3, kDistortion},
+                                            {"p1", map.p1, kDistortion},
+                                            {"p2", map.p2, kDistortion}}) {
     if (!std::isfinite(value)) return Error(fmt::format("{}: must be finite", name));
+    LFD_TRY_STATUS(check_magnitude(name, value, limits));
   }
   const double norm = glm::length(map.orientation);
   if (!(std::abs(norm - 1) <= 1e-6)) {

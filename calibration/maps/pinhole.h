@@ -28,7 +28,8 @@ struct PinholeMap {
   bool operator==(const PinholeMap&) const = default;
 };
 
-// Refuses numbers that are not finite, focal lengths <= 0, orientations that are not of unit length (1e-6).
+// Refuses numbers that are not finite or beyond calibration/limits.h, focal lengths <= 0, orientations that are not of
+// unit length (1e-6).
 Status validate(const PinholeMap& map);
 
 // The radius up to which the radial polynomial grows, i.e. up to which it can be inverted; infinity where it always

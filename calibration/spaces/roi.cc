@@ -4,40 +4,46 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.h"
+#include "calibration/limits.h"
 
 namespace lfd {
 namespace {
 
-// Far beyond anything that is shown, and far from where products and quotients of them leave double precision.
-constexpr double kLeastSize_m = 1e-12, kMost_m = 1e12;
-
-Status validate_size(const char* name, glm::dvec3 size) {
+Status validate_size(const char* name, glm::dvec3 size, Limits limits) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (size[axis] >= kLeastSize_m && size[axis] <= kMost_m) continue;
-    return Error(
-        fmt::format("{}: {} m along {}; {} to {} are possible", name, size[axis], "xyz"[axis], kLeastSize_m, kMost_m));
+    if (!(size[axis] > 0) || !std::isfinite(size[axis])) {
+      return Error(fmt::format("{}: {} along {} must be positive and finite", name, size[axis], "xyz"[axis]));
+    }
+    LFD_TRY_STATUS(check_magnitude(name, size[axis], limits));
   }
-  return {};
-}
-
-template <class S>
-Status validate_centre(const char* name, Point3<S> centre) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double place = to_glm(centre)[axis];
-    if (std::abs(place) <= kMost_m) continue;
-    return Error(fmt::format("{}: {} m along {}; {} to {} are possible", name, place, "xyz"[axis], -kMost_m, kMost_m));
-  }
-  return {};
+  const auto [least, most] = std::minmax({size.x, size.y, size.z});
+  if (most <= kMostRoiRatio * least) return {};
+  return Error(fmt::format("{}: {} to {} is a ratio of {:g}; at most {:g} is possible", name, most, least, most / least,
+                           kMostRoiRatio));
 }
 
 }  // namespace
 
 Status validate(const RegionOfInterest& roi) {
-  LFD_TRY_STATUS(validate_centre("world_centre", roi.world_centre));
-  LFD_TRY_STATUS(validate_centre("physical_centre", roi.physical_centre));
-  LFD_TRY_STATUS(validate_size("world_size", roi.world_size));
-  LFD_TRY_STATUS(validate_size("physical_size", roi.physical_size));
+  if (!is_finite(roi.world_centre)) return Error("world_centre: must be finite");
+  if (!is_finite(roi.physical_centre)) return Error("physical_centre: must be finite");
+  LFD_TRY_STATUS(validate_size("world_size", roi.world_size, kRoiWorldSize_m));
+  LFD_TRY_STATUS(validate_size("physical_size", roi.physical_size, kRoiPhysicalSize_m));
+  if (const double away = glm::length(to_glm(roi.world_centre)); !(away <= kFarthestRoi * roi.diagonal_m())) {
+    return Error(fmt::format("world_centre: {:g} m from the origin are more than {:g} diagonals: double precision ends",
+                             away, kFarthestRoi));
+  }
+  const glm::dvec3 scale = roi.world_size / roi.physical_size;
+  const double magnification =
+      std::max({scale.x, scale.y, scale.z}) * glm::length(roi.physical_size) / roi.diagonal_m();
+  if (!(magnification <= kMostRoiMagnification)) {
+    return Error(
+        fmt::format("physical_size: one axis is magnified {:g} times more than the others; at most {:g} is possible",
+                    magnification, kMostRoiMagnification));
+  }
+  for (const double place : {roi.physical_centre.x, roi.physical_centre.y, roi.physical_centre.z}) {
+    LFD_TRY_STATUS(check_magnitude("physical_centre", place, kPlace_m));
+  }
   const double norm = glm::length(roi.world_orientation);
   if (!(std::abs(norm - 1) <= 1e-6)) {
     return Error(fmt::format("world_orientation: a unit quaternion is needed, its length is {}", norm));

@@ -23,7 +23,7 @@ struct RegionOfInterest {
 };
 
 // Refuses sizes that are not positive and finite, centres that are not finite, orientations that are not of unit length
-// (1e-6).
+// (1e-6), and boxes too large, small, flat or far away for the precision there is (calibration/limits.h).
 Status validate(const RegionOfInterest& roi);
 
 // The affine map that takes the world box to the physical one. `roi` is valid.

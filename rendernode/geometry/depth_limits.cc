@@ -1,8 +1,9 @@
-// Limits in z.
+// Limits in depth and in space.
 #include "rendernode/geometry/depth_limits.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 namespace lfd {
@@ -24,6 +25,33 @@ void for_places(const DisplayCalibration& display, Visit visit) {
   }
 }
 
+// Lines are straight: the ends of those at the screen's borders bound all of them.
+void bound_space(const DisplayCalibration& display, DepthLimits& limits) {
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& module : display.modules) {
+    for (int i = 0; i < kPlaces; ++i) {
+      const double share = static_cast<double>(i) / (kPlaces - 1) - 0.5;
+      for (const glm::dvec2& at : {glm::dvec2(share, -0.5), {share, 0.5}, {-0.5, share}, {0.5, share}}) {
+        const auto line = line_of_screen_point(display.optics, module.emitter,
+                                               {at.x * display.screen.width_m, at.y * display.screen.height_m});
+        if (!line) continue;
+        for (const double depth : {limits.back, limits.front}) {
+          const glm::dvec3 end = to_glm(line->on_screen + (depth / display.optics.observer_distance_m) *
+                                                              (line->on_observer_line - line->on_screen));
+          low = glm::min(low, end);
+          high = glm::max(high, end);
+        }
+      }
+    }
+  }
+  const glm::dvec3 margin = glm::max(high - low, glm::dvec3(0.0)) + display.screen.width_m + display.screen.height_m;
+  limits.low = point_of<Physical>(low - margin);
+  limits.high = point_of<Physical>(high + margin);
+  if (!limits.in_z) return;
+  limits.low.z = limits.back;
+  limits.high.z = limits.front;
+}
+
 }  // namespace
 
 DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings& settings) {
@@ -39,10 +67,12 @@ DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings
   limits.back = std::max(settings.far_z_m.value_or(0.95 * singular), 0.999 * singular);
   // Kept apart even where the deployment asks for limits outside of what can be shown.
   limits.back = std::min(limits.back, limits.front - 1e-6 * vz);
+  bound_space(display, limits);
   double least_w = std::numeric_limits<double>::infinity();
   for_places(display, [&](const ModuleCalibration& module, ScreenPoint s, const PixelLine&) {
     least_w = std::min(least_w, w_at_depth(display.optics, module.emitter, s, limits.back));
   });
+  limits.singular = std::min(singular, limits.back - 1e-3 * (limits.front - limits.back));
   limits.depth_scale = std::max(least_w, 1e-9) / (limits.front - limits.back);
   return limits;
 }

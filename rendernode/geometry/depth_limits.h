@@ -1,4 +1,4 @@
-// The limits in z within which geometry is drawn, and the depth that is written for it.
+// The limits within which geometry is drawn, and the depth that is written for it.
 #pragma once
 
 #include "calibration/display.h"
@@ -12,6 +12,11 @@ struct DepthLimits {
   double front = 0, back = 0;
   bool in_z = true;        // depth is z: geometry can be cut in space. On a curved screen pixels are left out instead
   double depth_scale = 1;  // clip.z = depth_scale (front - depth); at most w everywhere between the limits
+  // Physical box of all that any pixel can show between the limits, with a wide margin in x and y (on a curved screen
+  // in z too): what reaches beyond is cut there, for single precision does not hold the corners of very large
+  // triangles.
+  Point3<Physical> low, high;
+  double singular = 0;  // behind `back`: the nearest place where the lines of some module meet
 };
 
 // The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back

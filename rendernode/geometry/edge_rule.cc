@@ -80,8 +80,8 @@ double EdgeRule::deviation(Point3<Physical> a, Point3<Physical> b) const {
 
 double EdgeRule::bend_between(double z0, double z1) const {
   const auto slice = [&](double z) {
-    const double share = (z - limits_.back) / (limits_.front - limits_.back);
-    return std::clamp(static_cast<int>(share * kSlices), 0, kSlices - 1);
+    const auto above = std::upper_bound(border_.begin() + 1, border_.end() - 1, z);
+    return above - border_.begin() - 1;
   };
   const auto [low, high] = std::minmax({slice(z0), slice(z1)});
   return *std::max_element(bend_.begin() + low, bend_.begin() + high + 1);
@@ -99,38 +99,53 @@ bool EdgeRule::must_split(Point3<Physical> a, Point3<Physical> b) const {
   return false;
 }
 
+// Even steps of log((vz - z) / (z - singular)): however far the emitters stand, the space about the screen has many.
+void EdgeRule::lay_slices() {
+  const double vz = display_->optics.observer_distance_m, singular = limits_.singular;
+  const auto place = [&](double z) { return std::log((vz - z) / (z - singular)); };
+  const double first = place(limits_.back), last = place(limits_.front);
+  for (int i = 0; i <= kSlices; ++i) {
+    const double ratio = std::exp(first + (last - first) * i / kSlices);
+    border_.push_back((vz + ratio * singular) / (1 + ratio));
+  }
+}
+
+// Both borders of each slice count, so that the steepest place of it is among the samples.
 void EdgeRule::measure_bend() {
-  bend_.assign(kSlices, 0);
-  const double step = 1e-3 * (limits_.front - limits_.back);
+  lay_slices();
+  std::vector<double> at_border;
+  for (const double z : border_) at_border.push_back(kBendMargin * steepest_bend_at(z));
+  for (int i = 0; i < kSlices; ++i) {
+    const auto slice = static_cast<std::size_t>(i);
+    bend_.push_back(std::max(at_border[slice], at_border[slice + 1]));
+  }
+}
+
+double EdgeRule::steepest_bend_at(double z) const {
   constexpr std::array<double, 5> kPlaces{-1.1, -0.6, 0, 0.6, 1.1};
   constexpr std::array<std::array<double, 3>, 7> kDirections{
       {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.7, 0.7, 0}, {0, 0.7, 0.7}, {0.7, 0, 0.7}, {0.58, -0.58, 0.58}}};
-  for (int i = 0; i < kSlices; ++i) {
-    // Both borders of the slice, so that the steepest place of it is among the samples.
-    for (const double z : {limits_.back + (limits_.front - limits_.back) * i / kSlices,
-                           limits_.back + (limits_.front - limits_.back) * (i + 1) / kSlices}) {
-      for (std::size_t k = 0; k < maps_.size(); ++k) {
-        const Emitter emitter = emitters_[k];
-        for (const double x : kPlaces) {
-          for (const double y : kPlaces) {
-            // The point at height z that this screen point shows (for a conical diffuser roughly, which is enough).
-            const double spread = (z - emitter.z) / -emitter.z;
-            const double fall = 1 - z / display_->optics.observer_distance_m;
-            const double sx = 0.5 * display_->screen.width_m * x;
-            const Point3<Physical> p{emitter.x + (sx - emitter.x) * spread, 0.5 * display_->screen.height_m * y * fall,
-                                     z};
-            for (const auto& d : kDirections) {
-              const Vector3<Physical> v{step * d[0], step * d[1], step * d[2]};
-              const double found = deviation_in(maps_[k], p, p + v);
-              if (std::isfinite(found))
-                bend_[static_cast<std::size_t>(i)] = std::max(bend_[static_cast<std::size_t>(i)], found / dot(v, v));
-            }
-          }
+  const double vz = display_->optics.observer_distance_m;
+  const double step = 1e-3 * std::min(vz - z, z - limits_.singular);
+  double steepest = 0;
+  for (std::size_t k = 0; k < maps_.size(); ++k) {
+    const Emitter emitter = emitters_[k];
+    for (const double x : kPlaces) {
+      for (const double y : kPlaces) {
+        // The point at height z that this screen point shows (for a conical diffuser roughly, which is enough).
+        const double spread = (z - emitter.z) / -emitter.z;
+        const double sx = 0.5 * display_->screen.width_m * x;
+        const Point3<Physical> p{emitter.x + (sx - emitter.x) * spread,
+                                 0.5 * display_->screen.height_m * y * (1 - z / vz), z};
+        for (const auto& d : kDirections) {
+          const Vector3<Physical> v{step * d[0], step * d[1], step * d[2]};
+          const double found = deviation_in(maps_[k], p, p + v);
+          if (std::isfinite(found)) steepest = std::max(steepest, found / dot(v, v));
         }
       }
     }
   }
-  for (auto& bend : bend_) bend *= kBendMargin;
+  return steepest;
 }
 
 }  // namespace lfd

@@ -30,14 +30,18 @@ class EdgeRule {
   bool is_beside(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
   double deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
   double bend_between(double z0, double z1) const;
+  void lay_slices();
   void measure_bend();
+  double steepest_bend_at(double z) const;
 
   const DisplayCalibration* display_;
   std::vector<ClipMap> maps_;
   std::vector<Emitter> emitters_;
   DepthLimits limits_;
   double tolerance_px_;
-  // Per slice of z: no edge of length L in it deviates by more than bend * L^2 tolerances. Measured over the screen
+  // Slices of z, finer toward the observers and toward the singularity, where the map is steep: borders, ascending.
+  std::vector<double> border_;
+  // Per slice: no edge of length L in it deviates by more than bend * L^2 tolerances. Measured over the screen
   // with a margin, it only spares most short edges the exact test.
   std::vector<double> bend_;
 };

@@ -33,6 +33,35 @@ std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physic
                                 {to_b.x, to_b.y, to_b.z, at_b}};
 }
 
+using Coordinate = double Point3<Physical>::*;
+constexpr std::array<Coordinate, 3> kAxes{&Point3<Physical>::z, &Point3<Physical>::x, &Point3<Physical>::y};
+
+bool reaches_beyond(const DepthLimits& limits, const std::array<Point3<Physical>, 3>& p) {
+  return std::ranges::any_of(kAxes, [&](Coordinate axis) {
+    const auto [low, high] = std::minmax({p[0].*axis, p[1].*axis, p[2].*axis});
+    return low < limits.low.*axis || high > limits.high.*axis;
+  });
+}
+
+// Keeps what lies on the side of `limit` to which `sign` points.
+void cut(std::vector<Corner>& polygon, Coordinate axis, double limit, double sign) {
+  std::vector<Corner> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner& here = polygon[i];
+    const Corner& next = polygon[(i + 1) % polygon.size()];
+    const double inside_here = sign * (here.position.*axis - limit), inside_next = sign * (next.position.*axis - limit);
+    if (inside_here >= 0) kept.push_back(here);
+    if ((inside_here < 0) == (inside_next < 0)) continue;
+    // From the same end whichever triangle asks, so that neighbours cut their edge at the same point.
+    const bool forward = inside_here < 0;
+    Corner crossing = forward ? between(here, next, inside_here / (inside_here - inside_next))
+                              : between(next, here, inside_next / (inside_next - inside_here));
+    crossing.position.*axis = limit;
+    kept.push_back(crossing);
+  }
+  polygon = std::move(kept);
+}
+
 std::uint16_t half_of(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
 
 std::int16_t snorm_of(double value) {
@@ -74,11 +103,9 @@ void TriangleFeed::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     ++out_.degenerate_triangles;
     return;
   }
-  const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
-  if (limits_.in_z && (low < limits_.back || high > limits_.front)) {
+  if (reaches_beyond(limits_, p)) {
     ++out_.cut_triangles;
-    if (high > limits_.back && low < limits_.front) add_cut({corners_[a], corners_[b], corners_[c]}, *plane);
-    return;
+    return add_cut({corners_[a], corners_[b], corners_[c]}, *plane);
   }
   if (rule_.must_split(p[0], p[1]) || rule_.must_split(p[1], p[2]) || rule_.must_split(p[2], p[0])) {
     split({corners_[a], corners_[b], corners_[c]}, *plane, 0);
@@ -92,26 +119,12 @@ void TriangleFeed::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   emit(index, p, *plane);
 }
 
-// Sutherland-Hodgman against the two limits, then a fan.
+// Sutherland-Hodgman against the sides of the box, then a fan.
 void TriangleFeed::add_cut(const Triangle& triangle, const shared::PrimitivePlane& plane) {
   std::vector<Corner> polygon(triangle.begin(), triangle.end());
-  for (const auto& [limit, sign] : {std::pair{limits_.front, -1.0}, std::pair{limits_.back, 1.0}}) {
-    std::vector<Corner> kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Corner& here = polygon[i];
-      const Corner& next = polygon[(i + 1) % polygon.size()];
-      const double inside_here = sign * (here.position.z - limit), inside_next = sign * (next.position.z - limit);
-      if (inside_here >= 0) kept.push_back(here);
-      if ((inside_here < 0) != (inside_next < 0)) {
-        // From the same end whichever triangle asks, so that neighbours cut their edge at the same point.
-        const bool forward = inside_here < 0;
-        Corner crossing = forward ? between(here, next, inside_here / (inside_here - inside_next))
-                                  : between(next, here, inside_next / (inside_next - inside_here));
-        crossing.position.z = limit;
-        kept.push_back(crossing);
-      }
-    }
-    polygon = std::move(kept);
+  for (const Coordinate axis : kAxes) {
+    cut(polygon, axis, limits_.high.*axis, -1);
+    cut(polygon, axis, limits_.low.*axis, 1);
   }
   for (std::size_t i = 2; i < polygon.size(); ++i) split({polygon[0], polygon[i - 1], polygon[i]}, plane, 0);
 }

@@ -2,6 +2,7 @@
 #include "rendernode/passes/gpu_modules.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <thread>
 
@@ -15,8 +16,19 @@ using glm::vec4;
 
 vec4 row_of(const glm::dmat3& m, int row, double w = 0) { return {m[0][row], m[1][row], m[2][row], w}; }
 
-void fill_homography(shared::ModuleParams& params, const glm::dmat3& image_from_screen) {
-  const glm::dmat3 inverse = glm::inverse(image_from_screen);
+// The same homography with entries of at most 1, which single precision holds.
+glm::dmat3 of_unit_size(const glm::dmat3& h) {
+  double largest = 0;
+  for (int column = 0; column < 3; ++column) {
+    const glm::dvec3 sizes = glm::abs(h[column]);
+    largest = std::max({largest, sizes.x, sizes.y, sizes.z});
+  }
+  return h / largest;
+}
+
+void fill_homography(shared::ModuleParams& params, const glm::dmat3& any_scale) {
+  const glm::dmat3 image_from_screen = of_unit_size(any_scale);
+  const glm::dmat3 inverse = of_unit_size(glm::inverse(image_from_screen));
   params.image_from_screen_0 = row_of(image_from_screen, 0);
   params.image_from_screen_1 = row_of(image_from_screen, 1);
   params.image_from_screen_2 = row_of(image_from_screen, 2);

@@ -45,7 +45,7 @@ vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 limits, vec2 pixel) {
   } else {
     vec2 range = plane.range.xy / m.observer.y;
     t = clamp(slope == 0.0 ? range.y : t, range.x, range.y);
-    t = keep_in_triangle(plane, start, direction, t);
+    t = clamp(keep_in_triangle(plane, start, direction, t), range.x, range.y);
   }
   return vec4(start + t * direction, slope >= 0.0 ? 1.0 : -1.0);
 }

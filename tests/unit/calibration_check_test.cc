@@ -181,7 +181,7 @@ TEST(Check, ExtremeDisplaysHaveFiniteAngles) {
     for (const ImageSize image : {ImageSize{1, 1}, ImageSize{8192, 8192}}) {
       DisplayCalibration display = one_module();
       display.image = image;
-      display.angular_scattering_rad = 100;
+      display.angular_scattering_rad = 6;
       display.modules = {{{0.2, 0, emitter_z}, IdealMap{}}, {{0.3, 0, emitter_z}, IdealMap{}}};
       ASSERT_TRUE(validate(display));
       const auto report = check_calibration(display, default_half_depth_m(display), kQuickSampling);

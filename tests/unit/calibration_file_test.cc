@@ -98,7 +98,7 @@ TEST_F(CalibrationFile, RandomNumbersSurviveTheRoundTrip) {
   std::uniform_real_distribution<double> any(-1, 1);
   DisplayCalibration display = *make_display("desk");
   for (auto& module : display.modules) {
-    module.emitter = {any(random) * 1e-9, any(random) * 1e9, -std::exp(50 * any(random))};
+    module.emitter = {any(random) * 1e-9, any(random) * 1e6, -std::exp(13 * any(random))};
     module.map =
         HomographyMap{glm::dmat3({any(random), any(random), any(random)}, {any(random), any(random), any(random)},
                                  {any(random), any(random), any(random)})};

@@ -1,0 +1,154 @@
+// Drawing and judging.
+#include "bench/stability/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/log.h"
+#include "bench/reference/silhouette.h"
+#include "rendernode/renderer.h"
+#include "tests/unit/reference_scenes.h"
+
+namespace lfd::bench {
+namespace {
+
+proto::State state_of(const Drawing& drawing) {
+  proto::State state;
+  state.set_sequence(1);
+  *state.mutable_scene() = drawing.data.scene;
+  *state.mutable_roi() = write_roi(drawing.roi);
+  *state.mutable_render() = drawing.settings;
+  return state;
+}
+
+std::vector<float> floats_of(const ModuleImage& image) {
+  std::vector<float> rgba(static_cast<std::size_t>(image.size.width) * image.size.height * 4);
+  if (!image.empty) std::memcpy(rgba.data(), image.bytes->data(), image.bytes->size());
+  return rgba;
+}
+
+std::string fault_of(const FrameResult& frame) {
+  for (const ModuleImage& image : frame.images) {
+    if (image.kind == proto::COLOR) continue;  // bytes
+    for (const float value : floats_of(image)) {
+      if (!std::isfinite(value)) return proto::BufferKind_Name(image.kind) + " has a number that is not finite";
+    }
+  }
+  return "";
+}
+
+void read_occlusion(const FrameResult& frame, Drawn& drawn) {
+  double sum = 0, count = 0;
+  for (const ModuleImage& image : frame.images) {
+    if (image.kind != proto::AO) continue;
+    const std::vector<float> rgba = floats_of(image);
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+      if (rgba[i + 3] == 0) continue;
+      sum += rgba[i];
+      ++count;
+      drawn.largest_ao = std::max(drawn.largest_ao, static_cast<double>(rgba[i]));
+    }
+  }
+  drawn.mean_ao = count > 0 ? sum / count : 0;
+}
+
+Result<reference::Truth> truth_of(const Drawing& drawing, const FrameResult& frame) {
+  LFD_TRY(const RenderSettings settings, read_settings(drawing.settings));
+  LFD_TRY(const reference::WorldScene scene, reference::world_scene(drawing.seen.value_or(drawing.data), drawing.roi));
+  const reference::Intersector intersector(scene);
+  const DepthLimits limits = depth_limits(drawing.display, settings);
+  const reference::ModuleView view{drawing.display, drawing.display.modules[0], {limits.front, limits.back}};
+  const auto hits = reference::cast_module(intersector, view);
+  const auto near_silhouette = reference::near_silhouette(intersector, view, hits);
+  for (const ModuleImage& image : frame.images) {
+    if (image.kind != proto::POSITION) continue;
+    const PictureF rendered{image.size.width, image.size.height, floats_of(image)};
+    return reference::compare(hits, near_silhouette, rendered, frame.position_origin, drawing.roi.diagonal_m());
+  }
+  return Error("no positions were drawn");
+}
+
+}  // namespace
+
+Result<Drawn> draw(const gl::Context& context, const Drawing& drawing) {
+  LFD_TRY_STATUS(validate(drawing.display));
+  const int errors_before = gl::Context::error_count();
+  Renderer renderer(context, drawing.display, {0});
+  LFD_TRY_STATUS(renderer.set_state(state_of(drawing), drawing.data.assets));
+  BufferSet buffers;
+  for (const auto kind : {proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}) buffers.bits |= 1U << kind;
+  LFD_TRY_STATUS(renderer.draw({.buffers = buffers}));
+  const FrameResult frame = renderer.collect();
+  Drawn drawn;
+  LFD_TRY(drawn.truth, truth_of(drawing, frame));
+  drawn.fault = fault_of(frame);
+  read_occlusion(frame, drawn);
+  if (gl::Context::error_count() != errors_before) drawn.fault += "GL reported an error";
+  return drawn;
+}
+
+StabilityCase drawn_true(std::string group, std::string name, std::function<Drawing()> make,
+                         const reference::TruthBounds& bounds) {
+  const std::string expected =
+      fmt::format("of the ROI diagonal: median {:g}, 99 % {:g}, max {:g}; coverage differs by {:g}; all finite",
+                  bounds.median, bounds.percent_99, bounds.max, bounds.mismatch_share);
+  return {std::move(group), std::move(name), expected,
+          [make = std::move(make), bounds](const gl::Context& context) -> Outcome {
+            const auto drawn = draw(context, make());
+            if (!drawn) return {"error: " + drawn.error().message(), 0, false};
+            const reference::Truth& truth = drawn->truth;
+            std::string got = fmt::format("{:.1e}, {:.1e}, {:.1e} on {} pixels; {:.2g}", truth.median, truth.percent_99,
+                                          truth.max, truth.compared, truth.mismatch_share);
+            if (!drawn->fault.empty()) got += "; " + drawn->fault;
+            const auto broken = reference::broken_bounds(truth, bounds);
+            for (const std::string& bound : broken) got += "; " + bound;
+            return {got, truth.max, drawn->fault.empty() && broken.empty()};
+          }};
+}
+
+StabilityCase drawing_refused(std::string group, std::string name, const std::string& words,
+                              std::function<Drawing()> make) {
+  return {std::move(group), std::move(name), fmt::format("error: \"{}\"", words),
+          [words, make = std::move(make)](const gl::Context& context) -> Outcome {
+            const auto drawn = draw(context, make());
+            if (drawn) return {"no error", 0, false};
+            return {"error: " + drawn.error().message(), 0, drawn.error().message().find(words) != std::string::npos};
+          }};
+}
+
+DisplayCalibration small_display(Diffuser diffuser) {
+  DisplayCalibration display{"small", {0.4, 0.3}, {128, 96}, {diffuser, 0.05, 0.8, 0, false}, 0.05, {}};
+  display.modules.push_back({{-0.1, -0.08, -0.6}, IdealMap{}});
+  return display;
+}
+
+RegionOfInterest small_roi() {
+  RegionOfInterest roi;
+  roi.world_size = roi.physical_size = {0.36, 0.27, 0.3};
+  return roi;
+}
+
+SceneData sphere_in_box(const RegionOfInterest& roi) {
+  reference::SceneMaker maker;
+  const auto plain = maker.add_material({});
+  const glm::dmat3 axes = glm::mat3_cast(roi.world_orientation);
+  std::array<double, 12> placement{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto i = static_cast<int>(row);
+    for (int column = 0; column < 3; ++column)
+      placement[4 * row + static_cast<std::size_t>(column)] = axes[column][i] * roi.world_size[column];
+    placement[4 * row + 3] = to_glm(roi.world_centre)[i];
+  }
+  maker.add_mesh(reference::sphere({0.1F, 0, 0.1F}, 0.3F, 16), plain, placement);
+  MeshArrays quads;
+  quads.position = {{-0.5F, -0.5F, -0.4F}, {0.5F, -0.5F, -0.4F}, {0.5F, 0.5F, -0.4F},  {-0.5F, 0.5F, -0.4F},
+                    {-0.5F, -0.4F, 0.45F}, {0.5F, -0.4F, 0.45F}, {0.5F, -0.4F, -0.5F}, {-0.5F, -0.4F, -0.5F}};
+  quads.normal.assign(4, {0, 0, 1});
+  quads.normal.resize(8, {0, 1, 0});
+  quads.index = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+  maker.add_mesh(quads, plain, placement);
+  return maker.data();
+}
+
+}  // namespace lfd::bench

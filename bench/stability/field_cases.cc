@@ -1,0 +1,137 @@
+// Bad numbers in every field of calibrations and deployments: refused by name, or harmless.
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "bench/stability/groups.h"
+#include "bench/stability/harmless.h"
+#include "bench/stability/message_fields.h"
+#include "bench/stability/spoilt_displays.h"
+#include "proto/calibration_file.h"
+#include "proto/deployment_file.h"
+#include "proto/text_file.h"
+
+namespace lfd::bench {
+namespace {
+
+constexpr const char* kExpected = "each value refused with the field's name, or harmless";
+
+// What became of the bad values of one field.
+class Tally {
+ public:
+  explicit Tally(const NumberField& field) : field_(field) {}
+
+  void refused(const std::string& value, const std::string& message) {
+    ++refused_;
+    const bool is_named =
+        std::ranges::any_of(field_.words, [&](const std::string& word) { return message.find(word) != message.npos; });
+    if (!is_named) fault(value, "error without the field's name: " + message);
+  }
+  void accepted(const std::string& value, const std::string& harm) {
+    ++accepted_;
+    if (!harm.empty()) fault(value, harm);
+  }
+  Outcome outcome() const {
+    if (!fault_.empty()) return {fault_, 0, false};
+    return {fmt::format("{} refused, {} harmless", refused_, accepted_), 0, true};
+  }
+
+ private:
+  void fault(const std::string& value, const std::string& what) {
+    if (fault_.empty()) fault_ = fmt::format("{}: {}", value, what);
+  }
+
+  const NumberField& field_;
+  int refused_ = 0, accepted_ = 0;
+  std::string fault_;
+};
+
+StabilityCase calibration_case(const std::string& kind, const NumberField& field) {
+  return {"fields of calibrations", kind + ": " + field.road, kExpected, [field](const gl::Context&) {
+            Tally tally(field);
+            for (const auto& [value, message] : field.spoilt) {
+              const auto display = read_calibration(dynamic_cast<const proto::DisplayCalibration&>(*message));
+              display ? tally.accepted(value, harm_of(*display)) : tally.refused(value, display.error().message());
+            }
+            return tally.outcome();
+          }};
+}
+
+// A deployment with every field that has a number, but those that would change nothing.
+proto::Deployment whole_deployment() {
+  proto::Deployment m;
+  m.set_display("display.textproto");
+  m.mutable_scene()->mutable_made()->set_name("room");
+  m.mutable_scene()->set_frames_per_second(30);
+  auto& roi = *m.mutable_roi();
+  for (auto* vector : {roi.mutable_world_centre(), roi.mutable_world_size(), roi.mutable_physical_centre(),
+                       roi.mutable_physical_size()}) {
+    vector->set_x(0.4);
+    vector->set_y(0.3);
+    vector->set_z(0.2);
+  }
+  roi.mutable_world_orientation()->set_w(0.6);
+  roi.mutable_world_orientation()->set_y(0.8);
+  auto& render = *m.mutable_render();
+  render.mutable_background()->set_r(0.5);
+  render.set_near_z_m(0.5);
+  render.set_far_z_m(-0.4);
+  render.mutable_ao()->mutable_curve()->set_a(0.5);
+  render.mutable_ao()->mutable_curve()->set_b(1);
+  render.mutable_ao()->mutable_curve()->set_c(1);
+  render.mutable_ao()->mutable_blur()->set_sigma_px(1.5);
+  m.add_node()->set_name("only");
+  m.mutable_pacing()->set_deadline_ms(100);
+  return m;
+}
+
+// A new folder of this process alone, gone with its last user.
+struct Folder {
+  std::filesystem::path path;
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lfd-stability-XXXXXX").string();
+    if (::mkdtemp(name.data())) path = name;  // otherwise writing into it says what is wrong
+  }
+  ~Folder() {
+    std::error_code ignored;
+    if (!path.empty()) std::filesystem::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+};
+
+StabilityCase deployment_case(const NumberField& field) {
+  return {"fields of deployments", field.road, kExpected, [field](const gl::Context&) {
+            const Folder folder;
+            Tally tally(field);
+            const Status saved = save_calibration(folder.path / "display.textproto", plain_display());
+            if (!saved) return Outcome{saved.error().message(), 0, false};
+            for (const auto& [value, message] : field.spoilt) {
+              const Status written = write_file(folder.path / "deployment.textproto", print_text(*message));
+              if (!written) return Outcome{written.error().message(), 0, false};
+              const auto deployment = load_deployment(folder.path / "deployment.textproto");
+              deployment ? tally.accepted(value, harm_of(*deployment))
+                         : tally.refused(value, deployment.error().message());
+            }
+            return tally.outcome();
+          }};
+}
+
+}  // namespace
+
+void add_field_cases(StabilityCases& cases) {
+  std::set<std::string> seen;
+  for (const auto& [kind, display] : spoilable_displays()) {
+    for (const NumberField& field : number_fields(write_calibration(display))) {
+      if (seen.insert(field.road).second) cases.push_back(calibration_case(kind, field));
+    }
+  }
+  for (const NumberField& field : number_fields(whole_deployment())) cases.push_back(deployment_case(field));
+}
+
+}  // namespace lfd::bench

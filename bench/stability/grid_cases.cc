@@ -1,0 +1,161 @@
+// Measured grids with folds, holes and nonsense: refused by name, or an inverse that is true wherever it answers.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/log.h"
+#include "bench/stability/groups.h"
+#include "calibration/maps/grid.h"
+
+namespace lfd::bench {
+namespace {
+
+constexpr const char* kGroup = "grid";
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// 17 x 13 nodes over 256 x 192 pixels and a screen of 0.4 x 0.3 m, bent smoothly.
+GridNodes bent_nodes() {
+  GridNodes nodes{17, 13, 0, 0, 16, 16, {}};
+  for (int row = 0; row < nodes.rows; ++row) {
+    for (int column = 0; column < nodes.columns; ++column) {
+      const PixelPoint p = nodes.place(column, row);
+      const double s = (p.x / 256 - 0.5) * 0.4, y = (0.5 - p.y / 192) * 0.3;
+      nodes.node.push_back({s + 0.004 * std::sin(9 * y), y + 0.003 * std::sin(8 * s)});
+    }
+  }
+  return nodes;
+}
+
+ScreenPoint& node(GridNodes& nodes, int column, int row) {
+  return nodes.node[static_cast<std::size_t>(row * nodes.columns + column)];
+}
+
+// Screen -> image -> screen over the screen and beside it, in metres; image -> screen -> image likewise, in pixels of
+// 1.6 mm, which a fold may answer with another pixel of the same screen point: it is judged on the screen.
+void inverse(Worst& worst, const GridMap& map) {
+  for (double s = -0.25; s <= 0.25; s += 0.0073) {
+    for (double y = -0.19; y <= 0.19; y += 0.0059) {
+      const auto p = image_from_screen(map, {s, y});
+      if (!p) continue;
+      const auto back = screen_from_image(map, *p);
+      worst.take(back ? std::hypot(back->x - s, back->y - y) : kInfinity);
+    }
+  }
+  for (double u = 0.5; u < 256; u += 3.7) {
+    for (double v = 0.5; v < 192; v += 3.1) {
+      const auto s = screen_from_image(map, {u, v});
+      if (!s) continue;
+      const auto p = image_from_screen(map, *s);
+      const auto again = p ? screen_from_image(map, *p) : std::nullopt;
+      worst.take(again ? std::hypot(again->x - s->x, again->y - s->y) : kInfinity);
+    }
+  }
+}
+
+StabilityCase inverts(const char* name, GridNodes nodes) {
+  double farthest_m = 0;
+  for (const ScreenPoint& n : nodes.node) {
+    if (!std::isnan(n.x)) farthest_m = std::max({farthest_m, std::abs(n.x), std::abs(n.y)});
+  }
+  const double bound = 64 * std::numeric_limits<double>::epsilon() * farthest_m;
+  return bounded(kGroup, name, bound, "m on the screen there and back: 64 roundings of the farthest node",
+                 [nodes](Worst& worst) {
+                   const auto map = GridMap::make(nodes);
+                   if (!map) return worst.take(kInfinity);
+                   inverse(worst, *map);
+                 });
+}
+
+StabilityCase rejects(const std::string& name, const std::string& words, GridNodes nodes) {
+  return refused(kGroup, name, words, [nodes]() -> Status {
+    const auto map = GridMap::make(nodes);
+    if (!map) return map.error();
+    return {};
+  });
+}
+
+GridNodes folded() {
+  GridNodes nodes = bent_nodes();
+  for (auto& n : nodes.node) n.x = 0.15 * std::sin(12 * n.x);  // turns back at 0.13 m on either side
+  return nodes;
+}
+
+GridNodes with_holes_at_border() {
+  GridNodes nodes = bent_nodes();
+  for (int i = 0; i < nodes.columns; ++i) node(nodes, i, 0) = {kNaN, kNaN};
+  for (int i = 0; i < nodes.rows; ++i) node(nodes, nodes.columns - 1, i) = {kNaN, kNaN};
+  node(nodes, 0, nodes.rows - 1) = {kNaN, kNaN};
+  return nodes;
+}
+
+GridNodes mirrored() {
+  GridNodes nodes = bent_nodes();
+  for (auto& n : nodes.node) n.x = -n.x;
+  return nodes;
+}
+
+GridNodes with_node(ScreenPoint value) {
+  GridNodes nodes = bent_nodes();
+  node(nodes, 8, 6) = value;
+  return nodes;
+}
+
+void add_refusals(StabilityCases& cases) {
+  GridNodes nodes = bent_nodes();
+  nodes.rows = 1;
+  nodes.node.resize(17);
+  cases.push_back(rejects("a single row", "rows: 1; 2 to 4096", nodes));
+  nodes = bent_nodes();
+  nodes.columns = 1;
+  nodes.node.resize(13);
+  cases.push_back(rejects("a single column", "columns: 1; 2 to 4096", nodes));
+  nodes = bent_nodes();
+  node(nodes, 9, 6) = node(nodes, 8, 6);
+  cases.push_back(rejects("duplicated nodes", "node (column 8, row 6): it is at the same place", nodes));
+  for (const double value : {1e30, -1e30, 1e300, kInfinity, -kInfinity}) {
+    cases.push_back(rejects(fmt::format("a node at {:g} m", value), "node (column 8, row 6)", with_node({value, 0})));
+  }
+  cases.push_back(rejects("half a hole", "one coordinate is missing", with_node({kNaN, 0})));
+  nodes = bent_nodes();
+  for (auto& n : nodes.node) n = {kNaN, kNaN};
+  cases.push_back(rejects("holes alone", "no cell of the grid has all four corners", nodes));
+  nodes = bent_nodes();
+  nodes.node.pop_back();
+  cases.push_back(rejects("a node too few", "220 nodes; columns x rows are 221", nodes));
+  for (const double step : {0.0, -1.0, kNaN, kInfinity}) {
+    nodes = bent_nodes();
+    nodes.step_v_px = step;
+    cases.push_back(rejects(fmt::format("a step of {} px", step), "step_v_px", nodes));
+  }
+  nodes = bent_nodes();
+  nodes.columns = std::numeric_limits<int>::max();
+  cases.push_back(rejects("2^31 - 1 columns", "columns: 2147483647", nodes));
+}
+
+}  // namespace
+
+void add_grid_cases(StabilityCases& cases) {
+  cases.push_back(inverts("bent smoothly", bent_nodes()));
+  cases.push_back(inverts("folded twice", folded()));
+  cases.push_back(inverts("holes along two borders and at a corner", with_holes_at_border()));
+  cases.push_back(inverts("a hole in the middle", with_node({kNaN, kNaN})));
+  cases.push_back(inverts("one node thrown far across its neighbours", with_node({0.19, -0.14})));
+  cases.push_back(inverts("one node at 9999 m", with_node({9999, 0})));
+  cases.push_back(inverts("mirrored as a whole", mirrored()));
+  GridNodes nodes = bent_nodes();
+  for (auto& n : nodes.node) n = {1e-9 * n.x, 1e-9 * n.y};
+  cases.push_back(inverts("shrunk to a nanometre", nodes));
+  nodes = bent_nodes();
+  node(nodes, 9, 6) = {std::nextafter(node(nodes, 8, 6).x, 1), node(nodes, 8, 6).y};
+  cases.push_back(inverts("two nodes one rounding apart", nodes));
+  cases.push_back(faultless(kGroup, "folded twice: share of mirrored cells", "0.35 to 0.65 of the cells", [] {
+    const auto map = GridMap::make(folded());
+    if (!map) return map.error().message();
+    const double share = map->folded_share();
+    return share > 0.35 && share < 0.65 ? std::string() : fmt::format("{}", share);
+  }));
+  add_refusals(cases);
+}
+
+}  // namespace lfd::bench

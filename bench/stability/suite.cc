@@ -1,0 +1,46 @@
+// Listing and running the cases.
+#include "bench/stability/suite.h"
+
+#include "base/log.h"
+#include "base/version.h"
+#include "bench/stability/groups.h"
+#include "rendernode/gl/context.h"
+
+namespace lfd::bench {
+
+StabilityCases stability_cases() {
+  StabilityCases cases;
+  add_limit_cases(cases);
+  add_roi_cases(cases);
+  add_radius_cases(cases);
+  add_grid_cases(cases);
+  add_distortion_cases(cases);
+  add_field_cases(cases);
+  add_gpu_map_cases(cases);
+  add_module_cases(cases);
+  add_picture_cases(cases);
+  add_triangle_cases(cases);
+  add_occlusion_cases(cases);
+  return cases;
+}
+
+std::vector<std::string> StabilityTable::missed() const {
+  std::vector<std::string> names;
+  for (const StabilityRow& row : rows) {
+    if (!row.outcome.passed) names.push_back(row.group + ": " + row.name);
+  }
+  return names;
+}
+
+Result<StabilityTable> run_stability(int gpu) {
+  LFD_TRY(const std::unique_ptr<gl::Context> context, gl::Context::create(gpu));
+  StabilityTable table{context->description(), kVersion, {}};
+  std::string group;
+  for (const StabilityCase& one : stability_cases()) {
+    if (one.group != std::exchange(group, one.group)) log::info("{}", group);
+    table.rows.push_back({one.group, one.name, one.expected, one.run(*context)});
+  }
+  return table;
+}
+
+}  // namespace lfd::bench
