@@ -38,18 +38,6 @@ constexpr std::array kDisplays = {
 // Takes away the last digits, in which the mathematics libraries of machines differ.
 double rounded(double value) { return std::round(value * 1e12) / 1e12; }
 
-// The largest distance, in normalised coordinates, of a corner of the image from the optical axis.
-double corner_radius(const PinholeMap& map, ImageSize image) {
-  double radius = 0;
-  for (const double u : {0.0, double(image.width)}) {
-    for (const double v : {0.0, double(image.height)}) {
-      radius = std::max(
-          radius, std::hypot((u - map.principal_u_px) / map.focal_u_px, (v - map.principal_v_px) / map.focal_v_px));
-    }
-  }
-  return radius;
-}
-
 // A pinhole with the errors of an installation; shares are of the image's width.
 PinholeMap with_errors(const PinholeMap& ideal, ImageSize image, Random& random) {
   constexpr double kDegree = std::numbers::pi / 180;
@@ -174,17 +162,26 @@ Result<DisplayCalibration> measured(const DisplayCalibration& display, int colum
 }
 
 Result<DisplayCalibration> curved(const DisplayCalibration& display, double radius_m, bool observer_arc) {
+  if (radius_m == 0) return Error("radius: 0 m is no cylinder");
   DisplayCalibration result = display;
   result.name += radius_m > 0 ? "-convex" : "-concave";
   result.optics.screen_radius_m = radius_m;
   result.optics.observer_arc = observer_arc;
   LFD_TRY_STATUS(validate(result));
+  // A place before a plane (arc length, distance) is kept before the arc.
+  const auto bent = [&](const Point3<Physical>& place, double angle) {
+    const Point3<Physical> at = surface_point(result.optics, {place.x, place.y});
+    return Point3<Physical>{rounded(at.x + place.z * std::sin(angle)), place.y,
+                            rounded(at.z + place.z * std::cos(angle))};
+  };
   for (ModuleCalibration& module : result.modules) {
-    // The emitter's place before a plane (arc length, distance) is kept before the arc.
-    const Point3<Physical> at = surface_point(result.optics, {module.emitter.x, module.emitter.y});
-    const double angle = module.emitter.x / radius_m, distance = module.emitter.z;
-    module.emitter = {rounded(at.x + distance * std::sin(angle)), module.emitter.y,
-                      rounded(at.z + distance * std::cos(angle))};
+    const double angle = module.emitter.x / radius_m;
+    module.emitter = bent(module.emitter, angle);
+    if (auto* map = std::get_if<PinholeMap>(&module.map)) {
+      map->position = bent(map->position, angle);
+      const glm::dquat turned = glm::angleAxis(angle, glm::dvec3(0, 1, 0)) * map->orientation;
+      map->orientation = {rounded(turned.w), rounded(turned.x), rounded(turned.y), rounded(turned.z)};
+    }
   }
   LFD_TRY_STATUS(validate(result));
   return result;

@@ -42,7 +42,7 @@ Result<DisplayCalibration> measured(const DisplayCalibration& display, int colum
                                     std::uint64_t seed);
 
 // The same display with its screen bent to a cylinder (Optics: screen_radius_m, observer_arc) and its emitters moved
-// along, so that each stands to the screen as before. Errors: those of validate().
+// along, pinholes with them, so that each stands to the screen as before. Errors: a radius of 0, those of validate().
 Result<DisplayCalibration> curved(const DisplayCalibration& display, double radius_m, bool observer_arc);
 
 }  // namespace lfd

@@ -1,10 +1,14 @@
 // The commands of lfd-calibrate: each adds itself to the command line.
 #pragma once
 
+#include <charconv>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "base/command_line.h"
+#include "base/log.h"
 #include "proto/grid_files.h"
 
 namespace lfd {
@@ -19,6 +23,18 @@ inline void add_grids_option(CLI::App& command, std::string& grids) {
 inline std::optional<GridFileFormat> grid_format_of(const std::string& grids) {
   if (grids.empty()) return std::nullopt;
   return grids == "pfm" ? GridFileFormat::kPfm : GridFileFormat::kCsv;
+}
+
+// "24x18": columns and rows. Error: text that is not that, named by its option.
+inline Result<std::pair<int, int>> columns_and_rows(std::string_view option, std::string_view text) {
+  std::pair<int, int> numbers;
+  const char* const end = text.data() + text.size();
+  const auto [x, no_first] = std::from_chars(text.data(), end, numbers.first);
+  if (no_first == std::errc() && x != end && *x == 'x') {
+    const auto [rest, no_second] = std::from_chars(x + 1, end, numbers.second);
+    if (no_second == std::errc() && rest == end) return numbers;
+  }
+  return Error(fmt::format("{} {}: two numbers are needed, as in 24x18", option, text));
 }
 
 // Writing calibrations: make, import, export.

@@ -1,7 +1,7 @@
 // lfd-calibrate simulate and fit: observations made of a known display, and a calibration made of observations.
-#include <charconv>
 #include <iostream>
 #include <memory>
+#include <tuple>
 
 #include "base/file.h"
 #include "base/log.h"
@@ -26,19 +26,10 @@ struct FitCommandOptions {
   FitOptions fit;
 };
 
-// "24x18"
-Status parse_points(std::string_view text, SimulationOptions& options) {
-  const char* const end = text.data() + text.size();
-  const auto [x, no_u] = std::from_chars(text.data(), end, options.points_u);
-  if (no_u == std::errc() && x != end && *x == 'x') {
-    const auto [rest, no_v] = std::from_chars(x + 1, end, options.points_v);
-    if (no_v == std::errc() && rest == end) return {};
-  }
-  return Error(fmt::format("--points {}: two numbers are needed, as in 24x18", text));
-}
-
 int run_simulate(SimulateOptions options) {
-  if (auto status = parse_points(options.points, options.simulation); !status) return wrong_use(status.error());
+  const auto points = columns_and_rows("--points", options.points);
+  if (!points) return wrong_use(points.error());
+  std::tie(options.simulation.points_u, options.simulation.points_v) = *points;
   const auto display = load_calibration(options.display);
   if (!display) return fail(display.error());
   const auto made = simulate_observations(*display, options.simulation);

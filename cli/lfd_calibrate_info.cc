@@ -1,5 +1,6 @@
 // lfd-calibrate info: what a calibration is.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -39,6 +40,12 @@ std::string span_of(const DisplayCalibration& display, double Point3<Physical>::
   return low == high ? fmt::format("{:.4g} m", low) : fmt::format("{:.4g} to {:.4g} m", low, high);
 }
 
+std::string shape_of_screen(const Optics& optics) {
+  if (optics.screen_radius_m == 0) return "planar";
+  return fmt::format("{} cylinder, radius {} m", optics.screen_radius_m > 0 ? "convex" : "concave",
+                     std::abs(optics.screen_radius_m));
+}
+
 int run_info(const std::string& file) {
   const auto display = load_calibration(file);
   if (!display) return fail(display.error());
@@ -48,10 +55,12 @@ int run_info(const std::string& file) {
   print_line("modules", fmt::format("{} ({})", display->modules.size(), kinds_of_maps(*display)));
   print_line("image of each", fmt::format("{} x {} px, {:.3g} megapixels in all", display->image.width,
                                           display->image.height, megapixels));
-  print_line("screen", fmt::format("{} x {} m", display->screen.width_m, display->screen.height_m));
+  print_line("screen", fmt::format("{} x {} m, {}", display->screen.width_m, display->screen.height_m,
+                                   shape_of_screen(display->optics)));
   print_line("diffuser", display->optics.diffuser == Diffuser::kLinear ? "linear" : "conical");
-  print_line("observer line", fmt::format("height {} m, distance {} m", display->optics.observer_height_m,
-                                          display->optics.observer_distance_m));
+  print_line(display->optics.observer_arc ? "observer arc" : "observer line",
+             fmt::format("height {} m, distance {} m", display->optics.observer_height_m,
+                         display->optics.observer_distance_m));
   print_line("emitters x", span_of(*display, &Point3<Physical>::x));
   print_line("emitters y", span_of(*display, &Point3<Physical>::y));
   print_line("emitters z", span_of(*display, &Point3<Physical>::z));

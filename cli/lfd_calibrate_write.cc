@@ -23,7 +23,10 @@ struct MakeOptions {
   std::string name;
   std::optional<std::uint64_t> seed, color_seed;
   std::optional<int> modules;
-  std::string out;
+  std::optional<double> radius_m;
+  bool observer_arc = false;
+  double warp_px = 0;
+  std::string grid, grids, out;
 };
 
 struct ImportOptions {
@@ -44,7 +47,23 @@ int write_display(const DisplayCalibration& display, const std::string& out,
   return kExitDone;
 }
 
+// As it would be installed, then measured, then balanced.
+Result<DisplayCalibration> with_wishes(const DisplayCalibration& display, const MakeOptions& options) {
+  DisplayCalibration made = options.seed ? perturbed(display, *options.seed) : display;
+  if (options.radius_m) {
+    LFD_TRY(made, curved(made, *options.radius_m, options.observer_arc));
+  }
+  if (!options.grid.empty()) {
+    LFD_TRY(const auto size, columns_and_rows("--grid", options.grid));
+    LFD_TRY(made, measured(made, size.first, size.second, options.warp_px, options.seed.value_or(1)));
+  }
+  if (options.color_seed) made = colored(made, *options.color_seed);
+  return made;
+}
+
 int run_make(const MakeOptions& options) {
+  if (!options.grids.empty() && options.out.empty())
+    return wrong_use(Error("--grids needs --out: files lie beside it"));
   const auto display = make_display(options.name, options.modules);
   if (!display) {
     const auto names = display_names();
@@ -53,9 +72,9 @@ int run_make(const MakeOptions& options) {
     return wrong_use(near ? Error(fmt::format("{}; did you mean {}?", display.error().message(), *near))
                           : display.error());
   }
-  DisplayCalibration made = options.seed ? perturbed(*display, *options.seed) : *display;
-  if (options.color_seed) made = colored(made, *options.color_seed);
-  return write_display(made, options.out);
+  const auto made = with_wishes(*display, options);
+  if (!made) return wrong_use(made.error());
+  return write_display(*made, options.out, grid_format_of(options.grids));
 }
 
 constexpr std::pair<const char*, ForeignFormat> kFormats[] = {
@@ -120,6 +139,24 @@ void add_make_command(CLI::App& app, int& exit_code) {
                    "Give every module a colour calibration: vignetting, gamma, primaries")
       ->type_name("SEED");
   command->add_option("--modules", options->modules, "So many modules within the same span")->type_name("N");
+  auto* radius = command
+                     ->add_option("--radius", options->radius_m,
+                                  "Bend the screen to a vertical cylinder of this radius, m: positive convex, negative "
+                                  "concave to the viewers")
+                     ->type_name("M");
+  command->add_flag("--observer-arc", options->observer_arc, "Viewers stand on an arc around the cylinder's axis")
+      ->needs(radius);
+  auto* grid = command
+                   ->add_option("--grid", options->grid,
+                                "Measure every module: a table of so many points of its image and where they lie on "
+                                "the screen")
+                   ->type_name("UxV");
+  command
+      ->add_option("--warp", options->warp_px,
+                   "With --grid: bend each module's table smoothly by about so many pixels, as no lens does")
+      ->needs(grid)
+      ->type_name("PX");
+  add_grids_option(*command, options->grids);
   command->add_option("--out", options->out, "File to write; standard output without it")->type_name("FILE");
 }
 

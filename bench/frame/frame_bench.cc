@@ -5,25 +5,13 @@
 
 #include "base/log.h"
 #include "base/version.h"
+#include "bench/common/shown_scene.h"
 #include "bench/frame/commit.h"
-#include "controller/scene/made/made_scenes.h"
 #include "controller/scene/scene_file.h"
 #include "rendernode/renderer.h"
 
 namespace lfd::bench {
 namespace {
-
-Result<LoadedScene> load(const Deployment& deployment) {
-  if (deployment.scene_file) return load_scene(*deployment.scene_file);
-  const auto& made = deployment.message.scene().made();
-  return scene::make_scene(made.name(), made.seed());
-}
-
-std::string scene_name(const Deployment& deployment) {
-  if (deployment.scene_file) return deployment.scene_file->filename().string();
-  const auto& made = deployment.message.scene().made();
-  return fmt::format("{} (made, seed {})", made.name(), made.seed());
-}
 
 // The scene at rest, whole or as the region of interest says, with ambient occlusion; the planner is on.
 Result<proto::State> state_of(const Deployment& deployment, const FrameBenchOptions& options,
@@ -53,7 +41,7 @@ Result<FrameSubject> subject_of(const Deployment& deployment, const SceneData& s
   LFD_TRY(const scene::Census census, scene::census_of(scene));
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   FrameSubject subject;
-  subject.scene = scene_name(deployment);
+  subject.scene = shown_scene_name(deployment);
   subject.faces = census.faces;
   subject.textures = census.pictures;
   subject.display = deployment.display.name;
@@ -96,8 +84,8 @@ Result<FrameTable> frame_bench(const gl::Context& context, const FrameBenchOptio
   if (options.frames < 1) return Error(fmt::format("frames: {}; at least 1 is needed", options.frames));
   LFD_TRY(const Deployment deployment, load_deployment(options.deployment, options.overrides));
   LFD_TRY(const std::uint32_t module, chosen_module(options, deployment.display));
-  log::info("loading {}", scene_name(deployment));
-  LFD_TRY(const LoadedScene loaded, load(deployment));
+  log::info("loading {}", shown_scene_name(deployment));
+  LFD_TRY(const LoadedScene loaded, load_shown_scene(deployment));
   for (const std::string& warning : loaded.warnings) log::warn("{}", warning);
   LFD_TRY(const proto::State state, state_of(deployment, options, loaded.data.scene));
   Renderer renderer(context, deployment.display, {module});

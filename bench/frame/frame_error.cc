@@ -3,26 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <random>
 
 #include "base/log.h"
+#include "bench/common/frame_picture.h"
 #include "bench/reference/ao_limit.h"
 #include "bench/reference/silhouette.h"
 #include "rendernode/renderer.h"
 
 namespace lfd::bench {
 namespace {
-
-PictureF picture_of(const FrameResult& frame, proto::BufferKind kind, ImageSize size) {
-  PictureF picture{size.width, size.height, {}};
-  picture.rgba.resize(static_cast<std::size_t>(size.width) * size.height * 4);
-  const auto image = std::ranges::find(frame.images, kind, &ModuleImage::kind);
-  LFD_CHECK(image != frame.images.end(), "every buffer that was asked for");
-  if (!image->empty) std::memcpy(picture.rgba.data(), image->bytes->data(), image->bytes->size());
-  return picture;
-}
 
 // Indices of pixels with a surface in both pictures: a subset of the size that is asked for, or all.
 std::vector<std::size_t> chosen_pixels(const reference::HitImage& hits, const PictureF& positions,
@@ -72,7 +63,7 @@ Result<FrameError> judge_frame(Renderer& renderer, const proto::State& state, co
   LFD_TRY_STATUS(renderer.draw(options));
   const FrameResult frame = renderer.collect();
   const DisplayCalibration& display = renderer.display();
-  const PictureF positions = picture_of(frame, proto::POSITION, display.image);
+  const PictureF positions = picture_of(frame, proto::POSITION);
 
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   const DepthLimits limits = depth_limits(display, settings);
@@ -86,8 +77,7 @@ Result<FrameError> judge_frame(Renderer& renderer, const proto::State& state, co
                                       frame.position_origin, renderer.roi().diagonal_m());
   const auto pixels = chosen_pixels(hits, positions, subset);
   log::info("casting {} samples of ambient occlusion for each of {} pixels", subset.samples, pixels.size());
-  error.ao =
-      ao_error(intersector, view, hits, pixels, picture_of(frame, proto::AO, display.image), settings.ao, subset);
+  error.ao = ao_error(intersector, view, hits, pixels, picture_of(frame, proto::AO), settings.ao, subset);
   return error;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "bench/frame/spread.h"
+#include "bench/common/spread.h"
 #include "proto/scene_data.h"
 
 namespace lfd {

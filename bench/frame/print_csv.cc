@@ -1,5 +1,6 @@
 // The table for spreadsheets.
 #include "base/log.h"
+#include "bench/common/csv.h"
 #include "bench/frame/print.h"
 
 namespace lfd::bench {
@@ -11,17 +12,10 @@ constexpr const char* kTitles =
     "with_median_ms,with_5_percent_ms,with_95_percent_ms,difference_of_means_ms,position_median,position_99_percent,"
     "position_max,mismatch_share,ao_mae,ao_mae_standard_error,ao_pixels,ao_reference_samples\n";
 
-// Quoted as RFC 4180 says.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string subject_cells(const FrameSubject& s, int frames) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", quoted(s.scene), s.faces, s.textures,
-                     s.drawn_triangles, quoted(s.display), s.module, s.image.width, s.image.height, s.ao_radius_m,
-                     s.ao.samples, s.ao.radii, frames, quoted(s.renderer), quoted(s.commit));
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_cell(s.scene), s.faces, s.textures,
+                     s.drawn_triangles, csv_cell(s.display), s.module, s.image.width, s.image.height, s.ao_radius_m,
+                     s.ao.samples, s.ao.radii, frames, csv_cell(s.renderer), csv_cell(s.commit));
 }
 
 std::string spread_cells(const std::optional<Spread>& spread) {

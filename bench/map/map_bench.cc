@@ -1,18 +1,16 @@
 // Every variant's renderer side by side, a frame of each in turn.
 #include "bench/map/map_bench.h"
 
-#include <algorithm>
-#include <cstring>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "bench/common/frame_picture.h"
+#include "bench/common/shown_scene.h"
+#include "bench/common/spread.h"
 #include "bench/reference/silhouette.h"
-#include "controller/scene/made/made_scenes.h"
-#include "controller/scene/scene_file.h"
 #include "rendernode/renderer.h"
 
 namespace lfd::bench {
@@ -28,19 +26,6 @@ struct Candidate {
   MapRow row;
   std::vector<double> gpu_ms, wall_ms;
 };
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-Result<LoadedScene> load(const Deployment& deployment) {
-  if (deployment.scene_file) return load_scene(*deployment.scene_file);
-  const auto& made = deployment.message.scene().made();
-  return scene::make_scene(made.name(), made.seed());
-}
 
 Result<proto::State> state_of(const Deployment& deployment, const proto::Scene& scene, const MapVariant& variant) {
   LFD_TRY(const RegionOfInterest roi, complete_roi(deployment.message.roi(), scene, deployment.display.screen));
@@ -90,19 +75,14 @@ Result<Expected> cast(const proto::State& state, const Assets& assets, const Dis
   return expected;
 }
 
-Status judge(Candidate& candidate, const Expected& expected, ImageSize size) {
+Status judge(Candidate& candidate, const Expected& expected) {
   FrameOptions options;
   options.buffers.bits = 1U << proto::POSITION;
   options.reuse = false;
   LFD_TRY_STATUS(candidate.renderer->draw(options));
   const FrameResult frame = candidate.renderer->collect();
-  const auto image = std::ranges::find(frame.images, proto::POSITION, &ModuleImage::kind);
-  LFD_CHECK(image != frame.images.end(), "the buffer that was asked for");
-  PictureF positions{size.width, size.height, {}};
-  positions.rgba.resize(static_cast<std::size_t>(size.width) * size.height * 4);
-  if (!image->empty) std::memcpy(positions.rgba.data(), image->bytes->data(), image->bytes->size());
-  candidate.row.truth = reference::compare(expected.hits, expected.near_silhouette, positions, frame.position_origin,
-                                           candidate.renderer->roi().diagonal_m());
+  candidate.row.truth = reference::compare(expected.hits, expected.near_silhouette, picture_of(frame, proto::POSITION),
+                                           frame.position_origin, candidate.renderer->roi().diagonal_m());
   candidate.row.triangles = frame.report.triangles();
   return {};
 }
@@ -131,10 +111,10 @@ void summarise(std::vector<Candidate>& candidates) {
       gpu_ratio.push_back(one.gpu_ms[i] / plain.gpu_ms[i]);
       wall_ratio.push_back(one.wall_ms[i] / plain.wall_ms[i]);
     }
-    one.row.gpu_ms = median_of(one.gpu_ms);
-    one.row.wall_ms = median_of(one.wall_ms);
-    one.row.gpu_ratio = median_of(gpu_ratio);
-    one.row.wall_ratio = median_of(wall_ratio);
+    one.row.gpu_ms = spread_of(one.gpu_ms).median;
+    one.row.wall_ms = spread_of(one.wall_ms).median;
+    one.row.gpu_ratio = spread_of(gpu_ratio).median;
+    one.row.wall_ratio = spread_of(wall_ratio).median;
   }
 }
 
@@ -167,10 +147,9 @@ Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& op
     if (module < display.modules.size()) continue;
     return Error(fmt::format("module {}: the display has {}", module, display.modules.size()));
   }
-  LFD_TRY(const LoadedScene scene, load(deployment));
+  LFD_TRY(const LoadedScene scene, load_shown_scene(deployment));
   MapTable table;
-  table.scene =
-      deployment.scene_file ? deployment.scene_file->filename().string() : deployment.message.scene().made().name();
+  table.scene = shown_scene_name(deployment);
   table.display = display.name;
   table.image = display.image;
   table.renderer = context.description();
@@ -190,7 +169,7 @@ Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& op
     LFD_TRY(const Expected expected,
             cast(state, scene.data.assets, display, module, candidates.front().renderer->roi()));
     for (Candidate& one : candidates) {
-      LFD_TRY_STATUS(judge(one, expected, display.image));
+      LFD_TRY_STATUS(judge(one, expected));
       table.rows.push_back(one.row);
     }
   }

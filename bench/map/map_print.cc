@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
+#include "bench/common/csv.h"
 #include "bench/map/map_bench.h"
 
 namespace lfd::bench {
@@ -59,14 +60,13 @@ std::string text_of(const MapTable& table) {
 
 std::string csv_of(const MapTable& table) {
   std::string csv =
-      "scene,display,module,variant,triangles,build_ms,gpu_ms,wall_ms,gpu_ratio,wall_ratio,median,percent_99,percent_"
-      "999,"
-      "max,mismatch_share,compared\n";
+      "scene,display,module,variant,triangles,build_ms,gpu_ms,wall_ms,gpu_ratio,wall_ratio,median,percent_99,"
+      "percent_999,max,mismatch_share,compared\n";
   for (const MapRow& r : table.rows) {
-    csv += fmt::format("{},{},{},\"{}\",{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.4e},{:.4e},{:.4e},{:.4e},{:.4e},{}\n",
-                       table.scene, table.display, r.module, r.variant, r.triangles, r.build_ms, r.gpu_ms, r.wall_ms,
-                       r.gpu_ratio, r.wall_ratio, r.truth.median, r.truth.percent_99, r.truth.percent_999, r.truth.max,
-                       r.truth.mismatch_share, r.truth.compared);
+    csv += fmt::format("{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.4e},{:.4e},{:.4e},{:.4e},{:.4e},{}\n",
+                       csv_cell(table.scene), csv_cell(table.display), r.module, csv_cell(r.variant), r.triangles,
+                       r.build_ms, r.gpu_ms, r.wall_ms, r.gpu_ratio, r.wall_ratio, r.truth.median, r.truth.percent_99,
+                       r.truth.percent_999, r.truth.max, r.truth.mismatch_share, r.truth.compared);
   }
   return csv;
 }

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/log.h"
+#include "bench/common/frame_picture.h"
+#include "bench/reference/scene_maker.h"
 #include "bench/reference/silhouette.h"
 #include "rendernode/renderer.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd::bench {
 namespace {
@@ -22,16 +22,10 @@ proto::State state_of(const Drawing& drawing) {
   return state;
 }
 
-std::vector<float> floats_of(const ModuleImage& image) {
-  std::vector<float> rgba(static_cast<std::size_t>(image.size.width) * image.size.height * 4);
-  if (!image.empty) std::memcpy(rgba.data(), image.bytes->data(), image.bytes->size());
-  return rgba;
-}
-
 std::string fault_of(const FrameResult& frame) {
   for (const ModuleImage& image : frame.images) {
     if (image.kind == proto::COLOR) continue;  // bytes
-    for (const float value : floats_of(image)) {
+    for (const float value : picture_of(image).rgba) {
       if (!std::isfinite(value)) return proto::BufferKind_Name(image.kind) + " has a number that is not finite";
     }
   }
@@ -42,7 +36,7 @@ void read_occlusion(const FrameResult& frame, Drawn& drawn) {
   double sum = 0, count = 0;
   for (const ModuleImage& image : frame.images) {
     if (image.kind != proto::AO) continue;
-    const std::vector<float> rgba = floats_of(image);
+    const std::vector<float> rgba = picture_of(image).rgba;
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
       if (rgba[i + 3] == 0) continue;
       sum += rgba[i];
@@ -61,12 +55,8 @@ Result<reference::Truth> truth_of(const Drawing& drawing, const FrameResult& fra
   const reference::ModuleView view{drawing.display, drawing.display.modules[0], {limits.front, limits.back}};
   const auto hits = reference::cast_module(intersector, view);
   const auto near_silhouette = reference::near_silhouette(intersector, view, hits);
-  for (const ModuleImage& image : frame.images) {
-    if (image.kind != proto::POSITION) continue;
-    const PictureF rendered{image.size.width, image.size.height, floats_of(image)};
-    return reference::compare(hits, near_silhouette, rendered, frame.position_origin, drawing.roi.diagonal_m());
-  }
-  return Error("no positions were drawn");
+  return reference::compare(hits, near_silhouette, picture_of(frame, proto::POSITION), frame.position_origin,
+                            drawing.roi.diagonal_m());
 }
 
 }  // namespace

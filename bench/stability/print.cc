@@ -1,16 +1,10 @@
 // The table for people and for spreadsheets.
 #include "base/log.h"
+#include "bench/common/csv.h"
 #include "bench/stability/suite.h"
 
 namespace lfd::bench {
 namespace {
-
-// Quoted as RFC 4180 says.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 
 // A cell of a Markdown table.
 std::string cell(const std::string& text) {
@@ -42,9 +36,9 @@ std::string text_of(const StabilityTable& table) {
 std::string csv_of(const StabilityTable& table) {
   std::string csv = "group,case,expected,got,worst_error,passed,renderer,version\n";
   for (const StabilityRow& row : table.rows) {
-    csv += fmt::format("{},{},{},{},{:.6e},{},{},{}\n", quoted(row.group), quoted(row.name), quoted(row.expected),
-                       quoted(row.outcome.got), row.outcome.worst, row.outcome.passed, quoted(table.renderer),
-                       quoted(table.version));
+    csv += fmt::format("{},{},{},{},{:.6e},{},{},{}\n", csv_cell(row.group), csv_cell(row.name), csv_cell(row.expected),
+                       csv_cell(row.outcome.got), row.outcome.worst, row.outcome.passed, csv_cell(table.renderer),
+                       csv_cell(table.version));
   }
   return csv;
 }

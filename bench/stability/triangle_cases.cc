@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "bench/reference/scene_maker.h"
 #include "bench/stability/drawing.h"
 #include "bench/stability/groups.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd::bench {
 namespace {

@@ -1,26 +1,10 @@
 // The scales of a pinhole's parameters.
 #include "calibration/fit/pinhole_family.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace lfd {
-namespace {
-
-// The largest distance, in normalised coordinates, of a corner of the image from the optical axis.
-double corner_radius(const PinholeMap& map, ImageSize image) {
-  double radius = 0;
-  for (const double u : {0.0, double(image.width)}) {
-    for (const double v : {0.0, double(image.height)}) {
-      radius = std::max(
-          radius, std::hypot((u - map.principal_u_px) / map.focal_u_px, (v - map.principal_v_px) / map.focal_v_px));
-    }
-  }
-  return radius;
-}
-
-}  // namespace
 
 PinholeFamily::PinholeFamily(const PinholeMap& start, ImageSize image, double position_sd_m) : start_(start) {
   const glm::dmat3 rotation = glm::mat3_cast(glm::normalize(start.orientation));  // physical from turned

@@ -151,6 +151,16 @@ double distortion_limit(const PinholeMap& m) {
   return std::sqrt(low);
 }
 
+double corner_radius(const PinholeMap& map, ImageSize image) {
+  const glm::dvec2 principal(map.principal_u_px, map.principal_v_px), focal(map.focal_u_px, map.focal_v_px);
+  double radius = 0;
+  for (const double u : {0.0, double(image.width)}) {
+    for (const double v : {0.0, double(image.height)})
+      radius = std::max(radius, glm::length((glm::dvec2(u, v) - principal) / focal));
+  }
+  return radius;
+}
+
 std::optional<PixelPoint> image_from_point(const PinholeMap& map, Point3<Physical> point) {
   const glm::dvec3 q = module_from_physical_rotation(map) * to_glm(point - map.position);
   if (!(q.z > 0)) return std::nullopt;

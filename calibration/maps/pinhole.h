@@ -36,6 +36,9 @@ Status validate(const PinholeMap& map);
 // grows.
 double distortion_limit(const PinholeMap& map);
 
+// The largest distance, in normalised coordinates, of a corner of the image from the optical axis.
+double corner_radius(const PinholeMap& map, ImageSize image);
+
 // Rotation from physical to module axes, the mirroring of the frame included.
 glm::dmat3 module_from_physical_rotation(const PinholeMap& map);
 

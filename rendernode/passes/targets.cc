@@ -9,7 +9,7 @@
 namespace lfd {
 
 Status Targets::prepare(const FramePlan& plan) {
-  make_textures(plan);
+  if (!make_textures(plan)) return {};
   const std::string what = fmt::format("the pictures of {} modules of {}x{}", layers_, size_.width, size_.height);
   if (const Status made = gl::memory_status(what); !made) {
     *this = Targets(size_, layers_);
@@ -19,9 +19,12 @@ Status Targets::prepare(const FramePlan& plan) {
   return {};
 }
 
-void Targets::make_textures(const FramePlan& plan) {
-  const auto make = [this](gl::Texture& texture, GLenum format) {
-    if (!texture) texture = gl::make_array_texture(format, size_, layers_);
+bool Targets::make_textures(const FramePlan& plan) {
+  bool made = false;
+  const auto make = [&](gl::Texture& texture, GLenum format) {
+    if (texture) return;
+    texture = gl::make_array_texture(format, size_, layers_);
+    made = true;
   };
   make(albedo_, GL_SRGB8_ALPHA8);
   make(depth_, GL_DEPTH_COMPONENT32F);
@@ -30,6 +33,7 @@ void Targets::make_textures(const FramePlan& plan) {
   if (plan.ao) make(ao_[0], GL_R16F);
   if (plan.ao && plan.blur) make(ao_[1], GL_R16F);
   if (plan.post) make(color_, GL_SRGB8_ALPHA8);
+  return made;
 }
 
 void Targets::make_framebuffers() {

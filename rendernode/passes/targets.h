@@ -35,7 +35,7 @@ class Targets {
   GLuint color_framebuffer() const { return color_framebuffer_.name(); }
 
  private:
-  void make_textures(const FramePlan& plan);
+  bool make_textures(const FramePlan& plan);  // whether any was missing
   void make_framebuffers();
 
   ImageSize size_;

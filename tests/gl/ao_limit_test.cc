@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bench/reference/scene_maker.h"
 #include "calibration/make.h"
 #include "tests/gl/ao_stage.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd {
 namespace {

@@ -12,6 +12,7 @@
 #include "rendernode/passes/gpu_colors.h"
 #include "tests/gl/compute.h"
 #include "tests/gl/picture_scene.h"
+#include "tests/support/made.h"
 
 namespace lfd {
 namespace {
@@ -190,12 +191,6 @@ TEST(ColorKnownAnswers, EveryPixelIsThatOfTheEquation) {
       }
     }
   }
-}
-
-SceneData made_data(const char* name) {
-  auto made = scene::make_scene(name, 1);
-  LFD_CHECK(made, made.error().message());
-  return made->data;
 }
 
 // Of a few small modules; module 1 has no colour calibration.

@@ -4,6 +4,7 @@
 #include "calibration/make.h"
 #include "controller/scene/made/made_scenes.h"
 #include "rendernode/passes/command_list.h"
+#include "tests/support/made.h"
 #include "tests/support/rendering.h"
 
 namespace lfd {
@@ -29,16 +30,12 @@ struct TwoStates {
   proto::State whole, half;
 
   TwoStates() {
-    auto made = scene::make_scene("room", 1);
-    LFD_CHECK(made, made.error().message());
-    assets = made->data.assets;
-    const auto& low = made->data.scene.bounds_low();
-    const auto& high = made->data.scene.bounds_high();
-    RegionOfInterest roi = fit_to_screen({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()},
-                                         display.screen.width_m, display.screen.height_m);
-    whole = state_of(made->data, roi);
+    const SceneData data = testing_support::made_data("room");
+    assets = data.assets;
+    RegionOfInterest roi = testing_support::whole_scene(data.scene, display);
+    whole = state_of(data, roi);
     roi.physical_size *= 0.5;
-    half = state_of(made->data, roi);
+    half = state_of(data, roi);
   }
 };
 

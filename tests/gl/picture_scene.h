@@ -5,9 +5,9 @@
 #include <string>
 
 #include "base/hash.h"
+#include "bench/reference/scene_maker.h"
 #include "proto/pictures/png.h"
 #include "tests/support/rendering.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd::testing_support {
 

@@ -3,6 +3,7 @@
 
 #include "calibration/make.h"
 #include "controller/scene/made/made_scenes.h"
+#include "tests/support/made.h"
 #include "tests/support/rendering.h"
 
 namespace lfd {
@@ -12,7 +13,9 @@ using testing_support::buffers;
 using testing_support::context;
 using testing_support::draw_once;
 using testing_support::find_image;
+using testing_support::made_data;
 using testing_support::state_of;
+using testing_support::whole_scene;
 
 constexpr proto::BufferKind kAllKinds[] = {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH};
 
@@ -23,28 +26,15 @@ DisplayCalibration small_display(int modules) {
   return *made;
 }
 
-SceneData made_data(const char* name) {
-  auto made = scene::make_scene(name, 1);
-  LFD_CHECK(made, made.error().message());
-  return made->data;
-}
-
 std::vector<std::uint32_t> all_modules(const DisplayCalibration& display) {
   std::vector<std::uint32_t> modules(display.modules.size());
   for (std::uint32_t k = 0; k < modules.size(); ++k) modules[k] = k;
   return modules;
 }
 
-RegionOfInterest whole_scene(const SceneData& data, const DisplayCalibration& display) {
-  const auto& low = data.scene.bounds_low();
-  const auto& high = data.scene.bounds_high();
-  return fit_to_screen({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}, display.screen.width_m,
-                       display.screen.height_m);
-}
-
 // The scene small and at the right, far before the screen: some modules do not see it, and others do not see all of it.
 RegionOfInterest aside(const SceneData& data, const DisplayCalibration& display) {
-  RegionOfInterest roi = whole_scene(data, display);
+  RegionOfInterest roi = whole_scene(data.scene, display);
   roi.physical_size *= 0.35;
   roi.physical_centre = {1.1, 0.1, 1.2};
   return roi;
@@ -100,7 +90,7 @@ TEST_P(PlannerPictures, AreThoseOfEverything) {
   const DisplayCalibration display = small_display(6);
   const auto modules = all_modules(display);
   const SceneData data = made_data(GetParam().scene);
-  const RegionOfInterest roi = GetParam().aside ? aside(data, display) : whole_scene(data, display);
+  const RegionOfInterest roi = GetParam().aside ? aside(data, display) : whole_scene(data.scene, display);
   proto::RenderSettings planned, everything;
   planned.mutable_ao()->set_enabled(GetParam().ao);
   everything = planned;
@@ -124,7 +114,7 @@ TEST_P(PlannerPictures, AreThoseOfEverything) {
 TEST(PlannerReports, DrawsOutsideOfAModulesView) {
   const DisplayCalibration display = small_display(6);
   const SceneData data = made_data("depth-steps");  // six instances
-  RegionOfInterest roi = whole_scene(data, display);
+  RegionOfInterest roi = whole_scene(data.scene, display);
   roi.physical_centre = {1.0, 0, 0.3};
   Renderer renderer(context(), display, all_modules(display));
   const FrameResult result = draw_once(renderer, state_of(data, roi), data.assets, {});
@@ -144,7 +134,7 @@ class Reuse : public testing::Test {
                      {.buffers = buffers({proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}), .reuse = reuse});
   }
 
-  proto::State state() const { return state_of(data_, whole_scene(data_, display_)); }
+  proto::State state() const { return state_of(data_, whole_scene(data_.scene, display_)); }
 
   static bool reused(const FrameResult& result) {
     return std::ranges::any_of(result.report.left_out(), [](const proto::LeftOut& left) {

@@ -51,12 +51,6 @@ void print(const std::string& name, const reference::Truth& truth) {
 
 }  // namespace
 
-RegionOfInterest whole_scene(const proto::Scene& scene, const DisplayCalibration& display) {
-  const auto point = [](const proto::Vector& v) { return Point3<World>{v.x(), v.y(), v.z()}; };
-  return fit_to_screen(point(scene.bounds_low()), point(scene.bounds_high()), display.screen.width_m,
-                       display.screen.height_m);
-}
-
 void expect_true(const TruthCase& test_case) {
   const DisplayCalibration& display = test_case.display;
   Renderer renderer(context(), display, test_case.modules);

@@ -19,9 +19,6 @@ struct TruthCase {
   RegionOfInterest roi;
 };
 
-// The default region of interest: the scene's bounds, fitted to the screen.
-RegionOfInterest whole_scene(const proto::Scene& scene, const DisplayCalibration& display);
-
 // Renders the modules in one frame, compares their positions with the reference, prints the figures, and fails the test
 // where a bound of reference::TruthBounds is broken. Then a picture of the differences is written beside the programs:
 //   red: a surface only in the reference; blue: only in what was rendered; dark grey: near a silhouette, not compared;

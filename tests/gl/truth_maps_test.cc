@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "calibration/make.h"
-#include "controller/scene/made/made_scenes.h"
 #include "tests/gl/truth_case.h"
+#include "tests/support/made.h"
 #include "tests/support/rendering.h"
 
 namespace lfd {
@@ -14,14 +14,10 @@ using testing_support::context;
 using testing_support::draw_once;
 using testing_support::expect_true;
 using testing_support::find_image;
+using testing_support::made_data;
 using testing_support::state_of;
+using testing_support::unwrapped;
 using testing_support::whole_scene;
-
-template <class T>
-T unwrapped(Result<T> result) {
-  LFD_CHECK(result, result.error().message());
-  return *std::move(result);
-}
 
 DisplayCalibration desk() { return unwrapped(make_display("desk")); }
 
@@ -43,7 +39,7 @@ class TruthOfMaps : public testing::TestWithParam<const char*> {
  protected:
   void expect_true_of(const char* scene_name) const {
     const DisplayCalibration display = display_named(GetParam());
-    const SceneData data = unwrapped(scene::make_scene(scene_name, 1)).data;
+    const SceneData data = made_data(scene_name);
     expect_true({std::string(scene_name) + " on desk, " + GetParam(),
                  data,
                  display,
@@ -67,7 +63,7 @@ TEST(HolesOfGrids, StayBackground) {
   const double hole = std::numeric_limits<double>::quiet_NaN();
   nodes.node[6 * 17 + 8] = {hole, hole};  // in the middle: four cells of 16 x 16 pixels
   display.modules[3].map = unwrapped(GridMap::make(nodes));
-  const SceneData data = unwrapped(scene::make_scene("quad", 1)).data;
+  const SceneData data = made_data("quad");
   RegionOfInterest roi = whole_scene(data.scene, display);
   roi.physical_size *= 2.0;  // larger than the screen
   Renderer renderer(context(), display, {3});

@@ -5,31 +5,23 @@
 #include <cctype>
 
 #include "base/file.h"
+#include "bench/reference/scene_maker.h"
 #include "calibration/import/format.h"
 #include "calibration/make.h"
 #include "controller/scene/made/made_scenes.h"
 #include "tests/foreign_files.h"
 #include "tests/gl/truth_case.h"
-#include "tests/unit/reference_scenes.h"
+#include "tests/support/made.h"
 
 namespace lfd {
 namespace {
 
 using reference::SceneMaker;
 using testing_support::expect_true;
+using testing_support::made_data;
 using testing_support::TruthCase;
+using testing_support::unwrapped;
 using testing_support::whole_scene;
-
-DisplayCalibration made_display(const char* name) {
-  auto display = make_display(name);
-  LFD_CHECK(display, display.error().message());
-  return *std::move(display);
-}
-
-SceneData data_of(Result<LoadedScene> scene) {
-  LFD_CHECK(scene, scene.error().message());
-  return std::move(scene->data);
-}
 
 SceneData sphere_before_wall() {
   SceneMaker maker;
@@ -56,12 +48,12 @@ struct Shown {
 };
 
 Shown shown_on(const std::string& name) {
-  if (name == "linear") return {"crs4", made_display("crs4"), {36, 0}};
+  if (name == "linear") return {"crs4", unwrapped(make_display("crs4")), {36, 0}};
   // Not the very last module of c80-conical: it sees Sponza's roof at 0.2 degrees beside a wall seen from the front. A
-  // hundredth of a pixel, what a rasteriser with corners at 1/256 px resolves, is 1e-3 of the diagonal on that roof (one
-  // pixel of 592 613 shows the wall's edge instead: 1.08e-3).
-  if (name == "conical") return {"c80-conical", made_display("c80-conical"), {40, 1}};
-  return {"desk, perturbed", perturbed(made_display("desk"), 7), {3, 0}};
+  // hundredth of a pixel, what a rasteriser with corners at 1/256 px resolves, is 1e-3 of the diagonal on that roof
+  // (one pixel of 592 613 shows the wall's edge instead: 1.08e-3).
+  if (name == "conical") return {"c80-conical", unwrapped(make_display("c80-conical")), {40, 1}};
+  return {"desk, perturbed", perturbed(unwrapped(make_display("desk")), 7), {3, 0}};
 }
 
 class TruthOnDisplays : public testing::TestWithParam<const char*> {
@@ -76,30 +68,28 @@ INSTANTIATE_TEST_SUITE_P(Displays, TruthOnDisplays, testing::Values("linear", "c
                          [](const auto& display) { return std::string(display.param); });
 
 // Twelve triangles, the viewer's side open.
-TEST_P(TruthOnDisplays, Room) { expect_true_with("room", data_of(scene::make_scene("room", 1))); }
+TEST_P(TruthOnDisplays, Room) { expect_true_with("room", made_data("room")); }
 
-TEST_P(TruthOnDisplays, RibbedShell) {
-  expect_true_with("ribbed shell", data_of(scene::make_scene("ribbed-shell", 1)));
-}
+TEST_P(TruthOnDisplays, RibbedShell) { expect_true_with("ribbed shell", made_data("ribbed-shell")); }
 
 TEST_P(TruthOnDisplays, Armadillo) {
   LFD_FOREIGN_FILE(path, "scenes/armadillo.glb");
-  expect_true_with("armadillo", data_of(load_scene(path)));
+  expect_true_with("armadillo", unwrapped(load_scene(path)).data);
 }
 
 TEST_P(TruthOnDisplays, Dragon) {
   LFD_FOREIGN_FILE(path, "scenes/dragon.glb");
-  expect_true_with("dragon", data_of(load_scene(path)));
+  expect_true_with("dragon", unwrapped(load_scene(path)).data);
 }
 
 TEST_P(TruthOnDisplays, VikingRoom) {
   LFD_FOREIGN_FILE(path, "scenes/viking_room.glb");
-  expect_true_with("viking room", data_of(load_scene(path)));
+  expect_true_with("viking room", unwrapped(load_scene(path)).data);
 }
 
 TEST_P(TruthOnDisplays, Sponza) {
   LFD_FOREIGN_FILE(path, "scenes/sponza/Sponza.gltf");
-  expect_true_with("sponza", data_of(load_scene(path)));
+  expect_true_with("sponza", unwrapped(load_scene(path)).data);
 }
 
 // The region of interest is a part of the nave, seen along it: the building surrounds screen and viewer and crosses
@@ -113,13 +103,13 @@ TEST_P(TruthOnDisplays, InsideSponza) {
   roi.world_size = {3 * aspect, 3, 3};
   roi.world_orientation = glm::angleAxis(0.5 * M_PI, glm::dvec3(0, 1, 0));
   roi.physical_size = shown.display.screen.height_m * glm::dvec3(aspect, 1, 1);
-  expect_true(
-      {std::string("inside sponza on ") + shown.name, data_of(load_scene(path)), shown.display, shown.modules, roi});
+  expect_true({std::string("inside sponza on ") + shown.name, unwrapped(load_scene(path)).data, shown.display,
+               shown.modules, roi});
 }
 
 // Single precision has steps of 6 cm there; the instance is placed, and the region of interest follows it.
 TEST_P(TruthOnDisplays, FarFromTheOrigin) {
-  SceneData data = data_of(scene::make_scene("ribbed-shell", 1));
+  SceneData data = made_data("ribbed-shell");
   const Shown shown = shown_on(GetParam());
   RegionOfInterest roi = whole_scene(data.scene, shown.display);
   const Vector3<World> move{1e6, -1e6, 1e6};
@@ -152,7 +142,7 @@ TEST_P(TruthOnForeignDisplays, RibbedShell) {
   ASSERT_TRUE(format);
   const auto display = import_display(*format, *text, GetParam());
   ASSERT_TRUE(display) << display.error().message();
-  const SceneData data = data_of(scene::make_scene("ribbed-shell", 1));
+  const SceneData data = made_data("ribbed-shell");
   const auto last = static_cast<std::uint32_t>(display->modules.size() - 1);
   expect_true({std::string("ribbed shell on ") + GetParam(),
                data,

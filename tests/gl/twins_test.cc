@@ -6,10 +6,10 @@
 #include <random>
 
 #include "bench/reference/ao_limit.h"
+#include "bench/reference/scene_maker.h"
 #include "calibration/make.h"
 #include "rendernode/passes/gpu_modules.h"
 #include "tests/gl/compute.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd {
 namespace {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "bench/common/frame_picture.h"
 #include "proto/scene_data.h"
 #include "rendernode/renderer.h"
 
@@ -57,10 +58,6 @@ inline const ModuleImage* find_image(const FrameResult& result, std::uint32_t mo
 }
 
 // The pixels of a float buffer, RGBA; all zero for an empty image.
-inline std::vector<float> floats_of(const ModuleImage& image) {
-  std::vector<float> rgba(static_cast<std::size_t>(image.size.width) * image.size.height * 4);
-  if (!image.empty) std::memcpy(rgba.data(), image.bytes->data(), image.bytes->size());
-  return rgba;
-}
+inline std::vector<float> floats_of(const ModuleImage& image) { return bench::picture_of(image).rgba; }
 
 }  // namespace lfd::testing_support

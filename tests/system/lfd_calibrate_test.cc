@@ -93,6 +93,25 @@ TEST(LfdCalibrate, MakesColoursAndTellsOfThem) {
   std::remove(file.c_str());
 }
 
+TEST(LfdCalibrate, MakesMeasuredAndCurvedDisplaysThatPassTheCheck) {
+  const std::string file = testing::TempDir() + "lfd-calibrate-made-" + std::to_string(getpid()) + ".textproto";
+  for (const std::string wishes : {"--grid 33x25 --warp 1.5", "--perturb 3 --radius=-2 --observer-arc",
+                                   "--perturb 3 --radius 3 --grid 25x19 --color 2"}) {
+    EXPECT_EQ(calibrate("make desk " + wishes + " --out " + file).exit_code, 0) << wishes;
+    const Answer check = calibrate("check " + file);
+    EXPECT_EQ(check.exit_code, 0) << wishes << "\n" << check.text;
+    const Answer info = calibrate("info " + file);
+    const bool is_grid = wishes.find("--grid") != std::string::npos,
+               is_curved = wishes.find("radius") != std::string::npos;
+    EXPECT_EQ(info.text.find("grid") != std::string::npos, is_grid) << info.text;
+    EXPECT_EQ(info.text.find("cylinder") != std::string::npos, is_curved) << info.text;
+  }
+  std::remove(file.c_str());
+  for (const char* wrong : {"--grid 33", "--grid 1x5", "--warp 2", "--observer-arc", "--radius 0", "--radius nan", "--grids pfm"})
+    EXPECT_EQ(calibrate("make desk " + std::string(wrong)).exit_code, 2) << wrong;
+  EXPECT_THAT(calibrate("make c80-conical --radius 2").text, HasSubstr("CONICAL on a curved screen"));
+}
+
 TEST(LfdCalibrate, ChecksAndRefuses) {
   EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
   const Answer strict = calibrate("check " + kDesk + " --min-coverage 1.5");

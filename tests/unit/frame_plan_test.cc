@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <random>
 
+#include "bench/reference/scene_maker.h"
 #include "calibration/make.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd {
 namespace {

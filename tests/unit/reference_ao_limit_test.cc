@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/reference/ao_limit.h"
-#include "tests/unit/reference_scenes.h"
+#include "bench/reference/scene_maker.h"
 
 namespace lfd::reference {
 namespace {

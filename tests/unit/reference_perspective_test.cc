@@ -5,8 +5,8 @@
 
 #include "bench/reference/perspective.h"
 #include "bench/reference/psnr.h"
+#include "bench/reference/scene_maker.h"
 #include "proto/pictures/png.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd::reference {
 namespace {

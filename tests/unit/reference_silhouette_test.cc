@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/reference/scene_maker.h"
 #include "bench/reference/silhouette.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd::reference {
 namespace {

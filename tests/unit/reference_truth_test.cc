@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "bench/reference/scene_maker.h"
 #include "bench/reference/silhouette.h"
 #include "bench/reference/truth.h"
-#include "tests/unit/reference_scenes.h"
 
 namespace lfd::reference {
 namespace {

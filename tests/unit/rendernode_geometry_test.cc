@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/reference/scene_maker.h"
 #include "proto/mesh_arrays.h"
 #include "rendernode/geometry/physical_geometry.h"
-#include "tests/unit/reference_scenes.h"
 #include "tests/unit/rendernode_displays.h"
 
 namespace lfd {

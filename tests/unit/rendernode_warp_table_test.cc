@@ -10,15 +10,12 @@
 #include "calibration/make.h"
 #include "rendernode/geometry/clip_map.h"
 #include "rendernode/geometry/warp_table.h"
+#include "tests/support/made.h"
 
 namespace lfd {
 namespace {
 
-template <class T>
-T unwrapped(Result<T> result) {
-  LFD_CHECK(result, result.error().message());
-  return *std::move(result);
-}
+using testing_support::unwrapped;
 
 DisplayCalibration measured_desk(double bump_px, int columns = 33, int rows = 25) {
   return unwrapped(measured(perturbed(unwrapped(make_display("desk")), 7), columns, rows, bump_px, 1));

@@ -1,4 +1,4 @@
-// Small scenes and displays, made by hand, for the tests of the reference.
+// Small scenes and displays, made by hand, for whatever is judged by the reference.
 #pragma once
 
 #include <array>

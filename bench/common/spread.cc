@@ -1,5 +1,5 @@
 // Percentiles of measured values.
-#include "bench/frame/spread.h"
+#include "bench/common/spread.h"
 
 #include <algorithm>
 #include <cmath>
