@@ -44,9 +44,13 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
       first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
 
   std::unique_ptr<const WarpTables> tables;
+  std::vector<std::string> table_warnings;
   GpuModules gpu_modules;
   if (new_tables) {
     tables = std::make_unique<const WarpTables>(warp_tables(display_, modules_, settings.warp_level));
+    if (settings.warp_level == 0) {  // a level that was asked for may be as coarse as it is
+      LFD_TRY(table_warnings, warnings_of(*tables, modules_));
+    }
     gpu_modules = upload_modules(display_, modules_, *tables);
     LFD_TRY_STATUS(gl::memory_status("the tables of the modules' maps"));
   }
@@ -77,6 +81,8 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   if (rule) rule_ = std::move(rule);
   if (tables) {
     tables_ = std::move(tables);
+    table_warnings_ = std::move(table_warnings);
+    for (const std::string& warning : table_warnings_) log::warn("{}", warning);
     gpu_modules_ = std::move(gpu_modules);
   }
   limits_ = limits;
@@ -233,6 +239,7 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
   }
   if (const std::string why = why_nothing_is_seen(); !why.empty())
     report.add_warning("nothing of the scene is seen: " + why);
+  for (const std::string& warning : table_warnings_) report.add_warning(warning);
   for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
   if (geometry_.degenerate_triangles > 0) {
     report.add_warning(

@@ -92,6 +92,7 @@ class Renderer {
   std::vector<std::uint32_t> modules_;
   std::string description_;
   std::unique_ptr<const WarpTables> tables_;  // on the heap: rule_ refers to it
+  std::vector<std::string> table_warnings_;
   GpuModules gpu_modules_;
   FramePasses passes_;
   Targets targets_;

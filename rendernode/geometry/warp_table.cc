@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/check.h"
+#include "base/log.h"
 
 namespace lfd {
 namespace {
@@ -169,19 +170,18 @@ WarpTable warp_table(const DisplayCalibration& display, const ModuleCalibration&
 
   // Bilinear interpolation errs most in the middles of cells and of their sides.
   const auto measured = [&](int column, int row) {
-    return column < table.columns && row < table.rows &&
-           is_measured[static_cast<std::size_t>(row) * static_cast<std::size_t>(table.columns) +
+    return is_measured[static_cast<std::size_t>(row) * static_cast<std::size_t>(table.columns) +
                        static_cast<std::size_t>(column)];
   };
   for (int row = 0; row + 1 < table.rows; ++row) {
     for (int column = 0; column + 1 < table.columns; ++column) {
-      if (!measured(column, row) || !measured(column + 1, row) || !measured(column, row + 1) ||
-          !measured(column + 1, row + 1))
-        continue;
+      const bool is_inside = measured(column, row) && measured(column + 1, row) && measured(column, row + 1) &&
+                             measured(column + 1, row + 1);
+      double& worst = is_inside ? table.error_px : table.border_error_px;
       for (const glm::dvec2& share : {glm::dvec2(0.5, 0.5), glm::dvec2(0.5, 0), glm::dvec2(0, 0.5)}) {
         const glm::dvec2 s = table.low + (glm::dvec2(column, row) + share) * table.cell;
-        const double error = glm::length(*table.at(s) - exact(s));
-        if (error > table.error_px) table.error_px = error;  // not where there is no pixel: NaN compares false
+        const double error = glm::length(table.at(s).value_or(glm::dvec2(kNowhere)) - exact(s));
+        if (error > worst) worst = error;  // not where there is no pixel: NaN compares false
       }
     }
   }
@@ -205,6 +205,19 @@ WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std:
     }
     if (level != 0 || are_true || tables.level == kFinest) return tables;
   }
+}
+
+Result<std::vector<std::string>> warnings_of(const WarpTables& tables, const std::vector<std::uint32_t>& modules) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    if (!tables.of_module[i] || tables.of_module[i]->error_px <= kTableTolerance_px) continue;
+    const std::string off = fmt::format("module {}: a table of {} columns is up to {:.2g} px off its measured map",
+                                        modules[i], tables.columns(), tables.of_module[i]->error_px);
+    if (tables.of_module[i]->error_px > kMostTableError_px)
+      return Error(fmt::format("{}; at most {} px is possible: the grid bends too sharply", off, kMostTableError_px));
+    warnings.push_back(fmt::format("{}; {} px is aimed at", off, kTableTolerance_px));
+  }
+  return warnings;
 }
 
 }  // namespace lfd

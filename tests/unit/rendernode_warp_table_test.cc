@@ -1,4 +1,5 @@
 // Tables of measured maps: within the stated error, continued beside what was measured, finer where the map bends more.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,6 +16,10 @@
 namespace lfd {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 using testing_support::unwrapped;
 
 DisplayCalibration measured_desk(double bump_px, int columns = 33, int rows = 25) {
@@ -109,6 +114,52 @@ TEST(WarpTable, OfAModuleBesideTheScreenIsItsBase) {
   display.modules[0].map = unwrapped(GridMap::make(nodes));
   const WarpTable table = warp_table(display, display.modules[0], 4);
   EXPECT_EQ(table.residual_px.front(), glm::vec2(0));
+}
+
+// The desk's module 3 as measured with 129 x 97 nodes, of which every other is off by this much along s.
+DisplayCalibration rough_desk(double off_px) {
+  DisplayCalibration display = measured_desk(0, 129, 97);
+  GridNodes nodes = std::get<GridMap>(display.modules[3].map).nodes();
+  const double pixel_m = display.screen.width_m / display.image.width;
+  for (std::size_t i = 0; i < nodes.node.size(); i += 2) nodes.node[i].x += off_px * pixel_m;
+  display.modules[3].map = unwrapped(GridMap::make(std::move(nodes)));
+  return display;
+}
+
+// Two bends of a few hundredths of a pixel in each of the grid's cells, which are four table cells wide at most.
+TEST(WarpTable, WarnsWhereTheFinestMissesTheTolerance) {
+  const DisplayCalibration display = rough_desk(0.3);
+  const WarpTables tables = warp_tables(display, {0, 3});
+  EXPECT_EQ(tables.columns(), 513);
+  const auto warnings = warnings_of(tables, {0, 3});
+  ASSERT_TRUE(warnings) << warnings.error().message();
+  EXPECT_THAT(*warnings, ElementsAre(AllOf(HasSubstr("module 3"), HasSubstr("513 columns"))));
+  // It says how far off it is: no point found at random is further off than twice that.
+  EXPECT_GT(tables.of_module[1]->error_px, kTableTolerance_px);
+  EXPECT_LE(worst_px(display, 3, *tables.of_module[1]), 2 * tables.of_module[1]->error_px);
+}
+
+TEST(WarpTable, IsRefusedWhereTheMapBendsTooSharply) {
+  const auto warnings = warnings_of(warp_tables(rough_desk(2), {3}), {3});
+  ASSERT_FALSE(warnings);
+  EXPECT_THAT(warnings.error().message(), AllOf(HasSubstr("module 3"), HasSubstr("at most 0.1 px")));
+}
+
+TEST(WarpTable, OfASmoothMapHasNothingToWarnOf) {
+  EXPECT_THAT(unwrapped(warnings_of(warp_tables(measured_desk(3), {0, 3}), {0, 3})), IsEmpty());
+}
+
+// Cells beside a hole are continued, and counted apart.
+TEST(WarpTable, SaysHowFarItIsBesideHoles) {
+  DisplayCalibration display = measured_desk(3);
+  const double whole = warp_table(display, display.modules[3], 6).border_error_px;  // at the image's own border
+  GridNodes nodes = std::get<GridMap>(display.modules[3].map).nodes();
+  nodes.node[12 * 33 + 16] = {std::nan(""), std::nan("")};
+  display.modules[3].map = unwrapped(GridMap::make(std::move(nodes)));
+  const WarpTable table = warp_table(display, display.modules[3], 6);
+  EXPECT_GT(table.border_error_px, whole);
+  EXPECT_LT(table.border_error_px, 1);  // straight on over at most a cell of a map that bends by 3 px in eight
+  EXPECT_LE(worst_px(display, 3, table), 2 * std::max(table.border_error_px, table.error_px));
 }
 
 }  // namespace
