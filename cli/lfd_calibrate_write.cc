@@ -188,9 +188,14 @@ void add_import_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
+  ThinningWish& thinning = options->mpcdi.thinning;
   command
-      ->add_option("--nodes", options->mpcdi.most_nodes,
-                   "MPCDI: nodes of a map along each side at most; larger warps are thinned")
+      ->add_option("--tolerance-px", thinning.tolerance_px,
+                   "MPCDI: how far thinning a warp to fewer nodes may move its points, px")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("PX")
+      ->capture_default_str();
+  command->add_option("--nodes", thinning.most_nodes, "MPCDI: nodes of a map along each side at most, whatever is lost")
       ->check(CLI::Range(2, kMaxGridSide))
       ->type_name("N")
       ->capture_default_str();

@@ -92,43 +92,6 @@ Result<std::vector<ScreenPoint>> screen_points(const PfmPixels& warp, double met
                   where.column, where.row, p[0], p[1], p[2], farthest_m, tolerance_m));
 }
 
-// Between pixels, linearly; a hole where a pixel that counts is one.
-ScreenPoint interpolated(const std::vector<ScreenPoint>& points, int width, double x, double y) {
-  const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
-  const double a = x - std::floor(x), b = y - std::floor(y);
-  ScreenPoint sum;
-  for (const auto& [i, j, weight] : {std::tuple{0U, 0U, (1 - a) * (1 - b)}, std::tuple{1U, 0U, a * (1 - b)},
-                                     std::tuple{0U, 1U, (1 - a) * b}, std::tuple{1U, 1U, a * b}}) {
-    if (weight == 0) continue;
-    const ScreenPoint& s = points[(row + j) * static_cast<std::size_t>(width) + column + i];
-    sum = {sum.x + weight * s.x, sum.y + weight * s.y};
-  }
-  return sum;
-}
-
-// Nodes at pixel centres, or at even distances from the first to the last where there are too many.
-GridNodes nodes_of(const std::vector<ScreenPoint>& points, const PfmPixels& warp, ImageSize image, int most_nodes) {
-  GridNodes nodes;
-  nodes.columns = std::min(warp.width, most_nodes);
-  nodes.rows = std::min(warp.height, most_nodes);
-  const double width_px = static_cast<double>(image.width) / warp.width,
-               height_px = static_cast<double>(image.height) / warp.height;
-  const auto stride = [](int pixels, int count) { return count < 2 ? 1.0 : (pixels - 1.0) / (count - 1.0); };
-  const double across = stride(warp.width, nodes.columns), down = stride(warp.height, nodes.rows);
-  nodes.first_u_px = 0.5 * width_px;
-  nodes.first_v_px = 0.5 * height_px;
-  nodes.step_u_px = across * width_px;
-  nodes.step_v_px = down * height_px;
-  nodes.node.reserve(static_cast<std::size_t>(nodes.columns) * static_cast<std::size_t>(nodes.rows));
-  for (int row = 0; row < nodes.rows; ++row) {
-    for (int column = 0; column < nodes.columns; ++column) {
-      nodes.node.push_back(interpolated(points, warp.width, std::min(column * across, warp.width - 1.0),
-                                        std::min(row * down, warp.height - 1.0)));
-    }
-  }
-  return nodes;
-}
-
 // Paths in the archive: '/' parts them, and none may lead out of it.
 Result<std::string> entry_of(const std::string& path) {
   if (path.empty()) return Error("geometryWarpFile: path: is missing");
@@ -158,6 +121,8 @@ class Importer {
   const MpcdiImportOptions& options_;
   MpcdiImport import_;
   std::map<std::string, int> left_out_;  // how often each
+  bool is_thinned_ = false;
+  ThinningLoss thinning_;  // the worst of all regions
 };
 
 // Everything but the modules.
@@ -204,16 +169,20 @@ Result<GridMap> Importer::map_of(const MpcdiRegion& region, double metre, const 
   LFD_TRY(const std::string content, zip_.read(entry, kWarpLimit_bytes));
   const auto warp = parse_pfm(content, kMaxGridSide);
   if (!warp) return warp.error().within(entry);
-  const auto points = screen_points(*warp, metre, origin, import_.display.optics, options_.tolerance_m);
+  auto points = screen_points(*warp, metre, origin, import_.display.optics, options_.tolerance_m);
   if (!points) return points.error().within(entry);
-  GridNodes nodes = nodes_of(*points, *warp, region.resolution, options_.most_nodes);
+  const auto thin = thinned({warp->width, warp->height, region.resolution, *std::move(points)}, options_.thinning);
+  if (!thin) return thin.error().within(entry);
+  const GridNodes& nodes = thin->map.nodes();
   if (nodes.columns < warp->width || nodes.rows < warp->height) {
     ++left_out_[fmt::format("warps of {} x {} points were thinned to {} x {}", warp->width, warp->height, nodes.columns,
                             nodes.rows)];
+    thinning_.median_px = std::max(thinning_.median_px, thin->loss.median_px);
+    thinning_.max_px = std::max(thinning_.max_px, thin->loss.max_px);
+    thinning_.holes_changed = std::max(thinning_.holes_changed, thin->loss.holes_changed);
+    is_thinned_ = true;
   }
-  auto map = GridMap::make(std::move(nodes));
-  if (!map) return map.error().within(entry);
-  return map;
+  return thin->map;
 }
 
 Result<ModuleCalibration> Importer::module_of(const MpcdiRegion& region, std::size_t k) {
@@ -254,6 +223,12 @@ Result<MpcdiImport> Importer::run() {
   for (const auto& [what, count] : left_out_) {
     import_.warnings.push_back(fmt::format("{} (in {} of {} regions)", what, count, document_.regions.size()));
   }
+  if (is_thinned_) {
+    import_.warnings.push_back(fmt::format(
+        "thinning moved points by up to {:.2g} px (median {:.2g} px) and changed {:.2g} % of the pixels to or "
+        "from holes, in the worst of the regions; {:g} px is aimed at",
+        thinning_.max_px, thinning_.median_px, 100 * thinning_.holes_changed, options_.thinning.tolerance_px));
+  }
   return std::move(import_);
 }
 
@@ -275,7 +250,7 @@ Point3<Physical> centre_of_mass(ScreenSize screen, const Optics& optics) {
 }
 
 Result<MpcdiImport> import_mpcdi(std::string_view archive, const std::string& file, const MpcdiImportOptions& options) {
-  LFD_CHECK(options.most_nodes >= 2, "a grid map needs two nodes a side");
+  LFD_CHECK(options.thinning.most_nodes >= 2, "a grid map needs two nodes a side");
   auto import = import_archive(archive, options);
   if (!import) return import.error().within(file);
   return import;

@@ -16,6 +16,7 @@
 
 #include "base/result.h"
 #include "calibration/display.h"
+#include "calibration/import/thin_warp.h"
 
 namespace lfd {
 
@@ -26,12 +27,12 @@ struct MpcdiImportOptions {
   const DisplayCalibration* like = nullptr;
   std::optional<Point3<Physical>> origin;  // where the file's origin is, in place of what the file says
   double tolerance_m = 1e-3;               // points may be so far off the screen's surface
-  int most_nodes = 65;  // of a grid map along each side, >= 2; larger warps are thinned by linear interpolation
+  ThinningWish thinning;                   // of warps with more pixels than a grid map should have nodes
 };
 
 struct MpcdiImport {
   DisplayCalibration display;
-  std::vector<std::string> warnings;  // what was left out
+  std::vector<std::string> warnings;  // what was left out, and what thinning has lost
 };
 
 // Limits, checked before memory is taken. Warps have at most kMaxGridSide pixels a side.

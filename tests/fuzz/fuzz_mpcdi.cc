@@ -26,15 +26,33 @@ std::string archive_of(std::string_view data) {
   return *archive;
 }
 
-}  // namespace
+// What the file does not say, said.
+lfd::DisplayCalibration display_like_it() {
+  lfd::DisplayCalibration display{"like", {2, 1}, {8, 6}, {lfd::Diffuser::kLinear, 0, 3}, 0.1, {}};
+  display.modules.push_back({{0, 0, -2}, lfd::IdealMap{}});
+  return display;
+}
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto import = lfd::import_mpcdi(archive_of({reinterpret_cast<const char*>(data), size}), "f", {});
+void import(const std::string& archive, const lfd::MpcdiImportOptions& options) {
+  const auto import = lfd::import_mpcdi(archive, "f", options);
   if (!import) {
     LFD_CHECK(import.error().message().starts_with("f: "), "every refusal names the file");
-    return 0;
+    return;
   }
   LFD_CHECK(lfd::validate(import->display), "what is imported is valid");
   LFD_CHECK(lfd::export_mpcdi(import->display, lfd::ImageSize{3, 2}), "what is imported can be exported");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const lfd::DisplayCalibration kLike = display_like_it();
+  const std::string archive = archive_of({reinterpret_cast<const char*>(data), size});
+  import(archive, {});
+  lfd::MpcdiImportOptions told;
+  told.like = &kLike;
+  told.origin = lfd::Point3<lfd::Physical>{0.5, 0.5, 0};
+  told.thinning.most_nodes = 5;
+  import(archive, told);
   return 0;
 }

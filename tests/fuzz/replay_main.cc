@@ -1,4 +1,8 @@
-// Runs a fuzz target over the files of its corpus, where no fuzzer is built in: a crash fails the test.
+// Runs a fuzz target over the files of its corpus, where no fuzzer is built in: a crash, a hang and a wish for absurd
+// memory fail the test.
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +14,16 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
+namespace {
+
+constexpr rlim_t kMemoryLimit_bytes = rlim_t{2} << 30;  // as -malloc_limit_mb of the fuzzers
+constexpr unsigned kFileLimit_s = 20;  // as their -timeout: for a loaded machine; all take milliseconds
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  const rlimit limit{kMemoryLimit_bytes, kMemoryLimit_bytes};
+  if (setrlimit(RLIMIT_AS, &limit) != 0) return 1;
   std::vector<std::filesystem::path> files;
   for (int i = 1; i < argc; ++i) {
     for (const auto& entry : std::filesystem::directory_iterator(argv[i])) files.push_back(entry.path());
@@ -23,6 +36,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     std::cout << path.string() << std::endl;  // before the run: the last line names what crashed
+    alarm(kFileLimit_s);
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(content->data()), content->size());
   }
   std::cout << files.size() << " files\n";

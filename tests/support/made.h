@@ -1,22 +1,14 @@
 // Made scenes and displays in tests, where their making cannot fail.
 #pragma once
 
-#include <utility>
+#include <string_view>
 
-#include "base/check.h"
-#include "base/result.h"
 #include "calibration/display.h"
 #include "calibration/spaces/roi.h"
 #include "controller/scene/made/made_scenes.h"
+#include "tests/support/unwrapped.h"
 
 namespace lfd::testing_support {
-
-// The value, or the end of the process with the error's message.
-template <class T>
-T unwrapped(Result<T> result) {
-  LFD_CHECK(result, result.error().message());
-  return *std::move(result);
-}
 
 // A made scene with seed 1.
 inline SceneData made_data(std::string_view name) { return unwrapped(scene::make_scene(name, 1)).data; }

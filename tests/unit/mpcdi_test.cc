@@ -204,10 +204,11 @@ TEST(Mpcdi, LargeWarpsAreThinnedWithAWarning) {
   const DisplayCalibration display = like();
   MpcdiImportOptions options;
   options.like = &display;
-  options.most_nodes = 4;
+  options.thinning.most_nodes = 4;
   const auto import = import_mpcdi(archive_of(kXml, warp), "f", options);
   ASSERT_TRUE(import) << import.error().message();
-  EXPECT_THAT(import->warnings, ElementsAre("warps of 11 x 5 points were thinned to 4 x 4 (in 1 of 1 regions)"));
+  EXPECT_THAT(import->warnings, ElementsAre("warps of 11 x 5 points were thinned to 4 x 4 (in 1 of 1 regions)",
+                                            StartsWith("thinning moved points by up to ")));
   const GridNodes& nodes = nodes_of(import->display, 0);
   // From the first pixel's centre to the last one's; linear between, which is exact here.
   EXPECT_DOUBLE_EQ(nodes.place(3, 3).x, 30 * 10.5 / 11);
