@@ -60,22 +60,26 @@ int bench_frame(Arguments& a) {
 
 struct MapArguments {
   bench::MapBenchOptions options;
-  std::string scene, display;  // files instead of the deployment's; may be empty
+  std::string display;  // a file instead of the deployment's; may be empty
   std::filesystem::path out;
 };
 
 int bench_map(MapArguments& a) {
-  if (!a.scene.empty()) a.options.overrides.scene = a.scene;
   if (!a.display.empty()) a.options.overrides.display = a.display;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_by_signal);
   if (const Status folder = make_folder(a.out); !folder) return fail(folder.error());
   const auto table = bench::map_bench(a.options);
   if (!table) return fail(table.error());
   std::cout << bench::text_of(*table);
-  const auto write = [&](const char* name, const std::string& text) { return write_file(a.out / name, text); };
+  const auto write = [&](const std::string& name, const std::string& text) { return write_file(a.out / name, text); };
   for (const Status& written : {write("map.txt", bench::text_of(*table)), write("map.csv", bench::csv_of(*table)),
-                                write("map.json", bench::json_of(*table)), write("map.svg", bench::svg_of(*table))}) {
+                                write("map.json", bench::json_of(*table))}) {
     if (!written) return fail(written.error());
+  }
+  for (const std::string& scene : table->scenes()) {
+    const std::string stem = scene.substr(0, scene.find_first_of(". "));
+    if (const Status plot = write("map-" + stem + ".svg", bench::svg_of(*table, scene)); !plot)
+      return fail(plot.error());
   }
   return end_of_output();
 }
@@ -86,13 +90,16 @@ void add_map_command(CLI::App& bench, int& exit_code) {
   CLI::App* map = add_command(bench, "map", "Position error against run time, for every way of drawing", exit_code,
                               [arguments] { return bench_map(*arguments); });
   map->add_option("DEPLOYMENT", a.options.deployment, "Deployment file (*.textproto)")->required();
-  map->add_option("--out", a.out, "Folder for map.txt, map.csv, map.json and map.svg")->required();
+  map->add_option("--out", a.out, "Folder for map.txt, map.csv, map.json and map-SCENE.svg")->required();
   map->add_option("--frames", a.options.frames, "How many frames of each way, in turn")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  map->add_option("--module", a.options.modules, "Numbers of modules (default: the middle one and the first)")
+  map->add_option("--module", a.options.modules, "Numbers of modules (default: the middle one, the first and the last)")
       ->delimiter(',');
-  map->add_option("--scene", a.scene, "Show this glTF file instead of the deployment's scene");
+  map->add_option("--scene", a.options.scenes,
+                  "Show these glTF files, one after the other, instead of the deployment's scene; the bound in time is "
+                  "for the first")
+      ->delimiter(',');
   map->add_option("--display", a.display, "Use this calibration file instead of the deployment's");
   map->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
 }

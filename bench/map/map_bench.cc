@@ -1,6 +1,7 @@
 // Every variant's renderer side by side, a frame of each in turn.
 #include "bench/map/map_bench.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -95,6 +96,7 @@ Result<std::vector<Candidate>> candidates_of(const gl::Context& context, const D
     LFD_TRY(const proto::State state, state_of(deployment, scene.data.scene, variant));
     const auto start = Clock::now();
     LFD_TRY_STATUS(one.renderer->set_state(state, scene.data.assets));
+    one.row.scene = shown_scene_name(deployment);
     one.row.variant = variant.name;
     one.row.module = module;
     one.row.build_ms = milliseconds(Clock::now() - start);
@@ -111,14 +113,59 @@ void summarise(std::vector<Candidate>& candidates) {
       gpu_ratio.push_back(one.gpu_ms[i] / plain.gpu_ms[i]);
       wall_ratio.push_back(one.wall_ms[i] / plain.wall_ms[i]);
     }
-    one.row.gpu_ms = spread_of(one.gpu_ms).median;
-    one.row.wall_ms = spread_of(one.wall_ms).median;
-    one.row.gpu_ratio = spread_of(gpu_ratio).median;
-    one.row.wall_ratio = spread_of(wall_ratio).median;
+    one.row.gpu_ms = spread_of(one.gpu_ms);
+    one.row.wall_ms = spread_of(one.wall_ms);
+    one.row.gpu_ratio = spread_of(gpu_ratio);
+    one.row.wall_ratio = spread_of(wall_ratio);
   }
 }
 
+Result<std::vector<std::uint32_t>> chosen_modules(const MapBenchOptions& options, const DisplayCalibration& display) {
+  const auto count = static_cast<std::uint32_t>(display.modules.size());
+  for (const std::uint32_t module : options.modules) {
+    if (module >= count) return Error(fmt::format("module {}: the display has {}", module, count));
+  }
+  if (!options.modules.empty()) return options.modules;
+  std::vector<std::uint32_t> modules{count / 2};
+  for (const std::uint32_t outermost : {0U, count - 1}) {
+    if (std::ranges::find(modules, outermost) == modules.end()) modules.push_back(outermost);
+  }
+  return modules;
+}
+
+// All variants on one module: timed side by side, then judged.
+Result<std::vector<MapRow>> rows_of(const gl::Context& context, const Deployment& deployment, const LoadedScene& scene,
+                                    std::uint32_t module, int frames) {
+  const std::string name = fmt::format("{}, module {}", shown_scene_name(deployment), module);
+  log::info("{}: building", name);
+  LFD_TRY(std::vector<Candidate> candidates, candidates_of(context, deployment, scene, module));
+  const RegionOfInterest roi = candidates.front().renderer->roi();
+  for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
+    for (Candidate& one : candidates) LFD_TRY_STATUS(draw_one(one, frame >= 0));
+    if (frame >= 0) log::info("{}: round {} of {}", name, frame + 1, frames);
+  }
+  summarise(candidates);
+  log::info("{}: casting the lines of all pixels", name);
+  LFD_TRY(const proto::State state, state_of(deployment, scene.data.scene, candidates.front().variant));
+  LFD_TRY(const Expected expected, cast(state, scene.data.assets, deployment.display, module, roi));
+  std::vector<MapRow> rows;
+  for (Candidate& one : candidates) {
+    LFD_TRY_STATUS(judge(one, expected));
+    one.row.roi_diagonal_m = roi.diagonal_m();
+    rows.push_back(one.row);
+  }
+  return rows;
+}
+
 }  // namespace
+
+std::vector<std::string> MapTable::scenes() const {
+  std::vector<std::string> names;
+  for (const MapRow& row : rows) {
+    if (std::ranges::find(names, row.scene) == names.end()) names.push_back(row.scene);
+  }
+  return names;
+}
 
 std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds) {
   std::vector<std::string> missed;
@@ -127,50 +174,36 @@ std::vector<std::string> missed_bounds(const MapTable& table, const std::string&
     if (row.variant != variant) continue;
     const auto check = [&](const char* what, double value, double bound) {
       if (value <= bound) return;
-      missed.push_back(fmt::format("module {}: {} {:.2g}; at most {:.2g} is allowed", row.module, what, value, bound));
+      missed.push_back(fmt::format("{}, module {}: {} {:.2g}; at most {:.2g} is allowed", row.scene, row.module, what,
+                                   value, bound));
     };
     check("99.9 % error", row.truth.percent_999, bounds.percent_999);
     check("largest error", row.truth.max, bounds.max);
     check("coverage mismatch", row.truth.mismatch_share, bounds.mismatch_share);
-    check("time over plain vertices", by_wall ? row.wall_ratio : row.gpu_ratio, bounds.ratio);
+    if (row.scene != table.rows.front().scene) continue;
+    check("time over plain vertices", (by_wall ? row.wall_ratio : row.gpu_ratio).median, bounds.ratio);
   }
   return missed;
 }
 
 Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& options) {
   if (options.frames < 1) return Error(fmt::format("frames: {}; at least 1 is needed", options.frames));
-  LFD_TRY(const Deployment deployment, load_deployment(options.deployment, options.overrides));
-  const DisplayCalibration& display = deployment.display;
-  std::vector<std::uint32_t> modules = options.modules;
-  if (modules.empty()) modules = {static_cast<std::uint32_t>(display.modules.size() / 2), 0};
-  for (const std::uint32_t module : modules) {
-    if (module < display.modules.size()) continue;
-    return Error(fmt::format("module {}: the display has {}", module, display.modules.size()));
+  // All files are read before anything is timed.
+  std::vector<Deployment> deployments;
+  DeploymentOverrides overrides = options.overrides;
+  for (std::size_t i = 0; i < std::max<std::size_t>(options.scenes.size(), 1); ++i) {
+    if (!options.scenes.empty()) overrides.scene = options.scenes[i];
+    LFD_TRY(Deployment deployment, load_deployment(options.deployment, overrides));
+    deployments.push_back(std::move(deployment));
   }
-  LFD_TRY(const LoadedScene scene, load_shown_scene(deployment));
-  MapTable table;
-  table.scene = shown_scene_name(deployment);
-  table.display = display.name;
-  table.image = display.image;
-  table.renderer = context.description();
-  table.version = kVersion;
-  table.frames = options.frames;
-  for (const std::uint32_t module : modules) {
-    log::info("module {}: building", module);
-    LFD_TRY(std::vector<Candidate> candidates, candidates_of(context, deployment, scene, module));
-    table.roi_diagonal_m = candidates.front().renderer->roi().diagonal_m();
-    for (int frame = -kWarmUpFrames; frame < options.frames; ++frame) {
-      for (Candidate& one : candidates) LFD_TRY_STATUS(draw_one(one, frame >= 0));
-      if (frame >= 0) log::info("module {}: round {} of {}", module, frame + 1, options.frames);
-    }
-    summarise(candidates);
-    log::info("module {}: casting the lines of all pixels", module);
-    LFD_TRY(const proto::State state, state_of(deployment, scene.data.scene, candidates.front().variant));
-    LFD_TRY(const Expected expected,
-            cast(state, scene.data.assets, display, module, candidates.front().renderer->roi()));
-    for (Candidate& one : candidates) {
-      LFD_TRY_STATUS(judge(one, expected));
-      table.rows.push_back(one.row);
+  const DisplayCalibration& display = deployments.front().display;
+  LFD_TRY(const std::vector<std::uint32_t> modules, chosen_modules(options, display));
+  MapTable table{display.name, display.image, context.description(), kVersion, options.frames, {}};
+  for (const Deployment& deployment : deployments) {
+    LFD_TRY(const LoadedScene scene, load_shown_scene(deployment));
+    for (const std::uint32_t module : modules) {
+      LFD_TRY(const std::vector<MapRow> rows, rows_of(context, deployment, scene, module, options.frames));
+      table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     }
   }
   return table;

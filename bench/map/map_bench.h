@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "bench/common/spread.h"
 #include "bench/map/map_variants.h"
 #include "bench/reference/truth.h"
 #include "proto/deployment_file.h"
@@ -20,38 +21,42 @@ namespace lfd::bench {
 struct MapBenchOptions {
   std::filesystem::path deployment;
   DeploymentOverrides overrides;
-  std::vector<std::uint32_t> modules;  // empty: the middle one and the first
-  int frames = 20;                     // of each variant, in turn
-  int gpu = -1;                        // of `lfd-rendernode --list-gpus`; -1: the first that works
+  std::vector<std::filesystem::path> scenes;  // glTF files, one after the other; empty: the deployment's scene
+  std::vector<std::uint32_t> modules;         // empty: the middle one, the first and the last
+  int frames = 20;                            // of each variant, in turn
+  int gpu = -1;                               // of `lfd-rendernode --list-gpus`; -1: the first that works
 };
 
-// One variant on one module.
+// One variant on one module of one scene.
 struct MapRow {
-  std::string variant;
+  std::string scene, variant;
   std::uint32_t module = 0;
-  std::uint64_t triangles = 0;     // after cutting and subdivision
-  double build_ms = 0;             // geometry, once, on the CPU
-  double gpu_ms = 0, wall_ms = 0;  // medians over frames: z prepass and G-buffer by timer queries; submitted to done
-  double gpu_ratio = 1, wall_ratio = 1;  // medians over frames of the ratio to plain vertices in the same round
+  std::uint64_t triangles = 0;   // after cutting and subdivision
+  double build_ms = 0;           // geometry, once, on the CPU
+  Spread gpu_ms, wall_ms;        // over frames: z prepass and G-buffer by timer queries; submitted to done
+  Spread gpu_ratio, wall_ratio;  // to plain vertices in the same round
+  double roi_diagonal_m = 0;
   reference::Truth truth;
 };
 
 struct MapTable {
-  std::string scene, display;
+  std::string display;
   ImageSize image;
-  double roi_diagonal_m = 0;
   std::string renderer;
   std::string version;
   int frames = 0;
-  std::vector<MapRow> rows;  // modules in turn, their variants in the order of map_variants()
+  std::vector<MapRow> rows;  // scenes in turn, their modules, and their variants in the order of map_variants()
+
+  std::vector<std::string> scenes() const;  // each once
 };
 
-// What a way of drawing has to keep on every module, and how much of plain vertices' time it may take.
+// What a way of drawing has to keep on every module of every scene, and how much of plain vertices' time it may take on
+// the first scene.
 struct MapBounds {
   double percent_999 = 1e-4, max = 1e-3, mismatch_share = 5e-4, ratio = 2;
 };
 
-// One line for each bound that a variant misses, with module and both numbers. None: it may be the default. On a
+// One line for each bound that a variant misses, with scene, module and both numbers. None: it may be the default. On a
 // rasteriser that works on the CPU timer queries leave vertices out, so the ratio is that of the wall clock there.
 std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds = {});
 
@@ -62,7 +67,7 @@ Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& op
 std::string text_of(const MapTable& table);
 std::string csv_of(const MapTable& table);
 std::string json_of(const MapTable& table);
-// Error (99.9 %) over time, both logarithmic, one picture for all modules.
-std::string svg_of(const MapTable& table);
+// Error (99.9 %) over time, both logarithmic, one picture for all modules of a scene.
+std::string svg_of(const MapTable& table, const std::string& scene);
 
 }  // namespace lfd::bench

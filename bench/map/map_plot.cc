@@ -1,6 +1,7 @@
 // Error over time as an SVG picture.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/log.h"
 #include "bench/map/map_bench.h"
@@ -41,9 +42,8 @@ void draw_grid(plots::Svg& svg, const Axis& x, const Axis& y) {
   }
 }
 
-void draw_labels(plots::Svg& svg, const MapTable& table, const Axis& x, const Axis& y) {
-  svg.text({kLeft, 24}, fmt::format("Position error over time: {} on {}", table.scene, table.display),
-           {.size_px = 15, .is_bold = true});
+void draw_labels(plots::Svg& svg, const std::string& title, const Axis& x, const Axis& y) {
+  svg.text({kLeft, 24}, title, {.size_px = 15, .is_bold = true});
   svg.text({0.5 * (x.from_px + x.to_px), kHeight - 18}, "wall-clock time over that of plain vertices",
            {.anchor = plots::Anchor::kMiddle});
   svg.text({22, 0.5 * (y.from_px + y.to_px)}, "99.9 % position error / ROI diagonal",
@@ -62,12 +62,14 @@ double drawn_error(const MapRow& row) { return std::max(row.truth.percent_999, 1
 
 }  // namespace
 
-std::string svg_of(const MapTable& table) {
+std::string svg_of(const MapTable& table, const std::string& scene) {
+  std::vector<MapRow> rows;
+  std::ranges::copy_if(table.rows, std::back_inserter(rows), [&](const MapRow& row) { return row.scene == scene; });
   double least = 1, most = 2, best = 1e-7, worst = 1e-3;
   std::vector<std::string> names;
-  for (const MapRow& row : table.rows) {
-    least = std::min(least, row.wall_ratio);
-    most = std::max(most, row.wall_ratio);
+  for (const MapRow& row : rows) {
+    least = std::min(least, row.wall_ratio.median);
+    most = std::max(most, row.wall_ratio.median);
     best = std::min(best, drawn_error(row));
     worst = std::max(worst, row.truth.percent_999);
     if (std::ranges::find(names, row.variant) == names.end()) names.push_back(row.variant);
@@ -76,13 +78,13 @@ std::string svg_of(const MapTable& table) {
   const Axis y{std::floor(std::log10(best)), std::ceil(std::log10(worst)), kHeight - kBottom, kTop};
   plots::Svg svg(kWidth, kHeight);
   draw_grid(svg, x, y);
-  draw_labels(svg, table, x, y);
+  draw_labels(svg, fmt::format("Position error over time: {} on {}", scene, table.display), x, y);
   draw_bounds(svg, x, y);
-  const std::uint32_t first_module = table.rows.empty() ? 0 : table.rows.front().module;
-  for (const MapRow& row : table.rows) {
+  const std::uint32_t first_module = rows.empty() ? 0 : rows.front().module;
+  for (const MapRow& row : rows) {
     const auto number = static_cast<std::size_t>(std::ranges::find(names, row.variant) - names.begin());
     const char* color = kColors[number % std::size(kColors)];
-    const plots::Place at{x.at(row.wall_ratio), y.at(drawn_error(row))};
+    const plots::Place at{x.at(row.wall_ratio.median), y.at(drawn_error(row))};
     if (row.module == first_module) {
       svg.circle(at, 6, {.fill = color});
     } else {

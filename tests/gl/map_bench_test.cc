@@ -14,6 +14,7 @@
 namespace lfd::bench {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -66,18 +67,23 @@ TEST(MapBench, NamesWhatAWayMisses) {
   MapTable table;
   table.renderer = "llvmpipe";
   MapRow row;
+  row.scene = "first";
   row.variant = "a";
   row.module = 7;
   row.truth.percent_999 = 2e-4;
-  row.wall_ratio = 3;
+  row.wall_ratio.median = 3;
   table.rows = {row};
   const auto missed = missed_bounds(table, "a");
   ASSERT_EQ(missed.size(), 2U);
-  EXPECT_THAT(missed[0], HasSubstr("module 7: 99.9 % error 0.0002"));
+  EXPECT_THAT(missed[0], HasSubstr("first, module 7: 99.9 % error 0.0002"));
   EXPECT_THAT(missed[1], HasSubstr("time over plain vertices 3"));
   table.rows[0].truth.percent_999 = 1e-5;
-  table.rows[0].wall_ratio = 2;
+  table.rows[0].wall_ratio.median = 2;
   EXPECT_THAT(missed_bounds(table, "a"), IsEmpty());
+  // Errors count on every scene, time on the first.
+  row.scene = "second";
+  table.rows.push_back(row);
+  EXPECT_THAT(missed_bounds(table, "a"), ElementsAre(HasSubstr("second, module 7: 99.9 % error")));
 }
 
 TEST(MapBench, PrintsTheSameNumbersEverywhere) {
@@ -87,8 +93,8 @@ TEST(MapBench, PrintsTheSameNumbersEverywhere) {
   EXPECT_EQ(json["rows"][0]["variant"], "plain vertices");
   EXPECT_EQ(json["rows"][0]["wall_ratio"], 1);
   EXPECT_EQ(std::ranges::count(csv_of(table), '\n'), static_cast<std::ptrdiff_t>(table.rows.size() + 1));
-  EXPECT_THAT(svg_of(table), testing::Not(HasSubstr("nan")));
-  EXPECT_THAT(svg_of(table), testing::EndsWith("</svg>\n"));
+  EXPECT_THAT(svg_of(table, table.scenes()[0]), testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(svg_of(table, table.scenes()[0]), testing::EndsWith("</svg>\n"));
 }
 
 }  // namespace
