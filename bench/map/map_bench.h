@@ -56,6 +56,9 @@ struct MapBounds {
   double percent_999 = 1e-4, max = 1e-3, mismatch_share = 5e-4, ratio = 2;
 };
 
+// One line for each bound on errors that a picture misses, with both numbers.
+std::vector<std::string> missed_bounds(const reference::Truth& truth, const MapBounds& bounds = {});
+
 // One line for each bound that a variant misses, with scene, module and both numbers. None: it may be the default. On a
 // rasteriser that works on the CPU timer queries leave vertices out, so the ratio is that of the wall clock there.
 std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds = {});

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/map/map_bench.h"
 #include "calibration/display.h"
 #include "calibration/spaces/roi.h"
 #include "proto/scene_data.h"
@@ -17,6 +19,7 @@ struct TruthCase {
   DisplayCalibration display;
   std::vector<std::uint32_t> modules;
   RegionOfInterest roi;
+  std::optional<bench::MapBounds> way = std::nullopt;  // bounds of the way of drawing, beside those of the truth
 };
 
 // Renders the modules in one frame, compares their positions with the reference, prints the figures, and fails the test
