@@ -60,11 +60,11 @@ bool is_unchanged(const proto::NodeReport& node) {
   });
 }
 
-std::size_t modules_left_out(const proto::FrameReport& frame) {
+std::size_t modules_without_geometry(const proto::FrameReport& frame) {
   std::size_t count = 0;
   for (const proto::NodeReport& node : frame.node()) {
     count += static_cast<std::size_t>(std::ranges::count_if(node.left_out(), [](const proto::LeftOut& left_out) {
-      return left_out.what() == "module" && left_out.which() != "all";
+      return left_out.what() == "module" && left_out.why() == "no geometry in its view";
     }));
   }
   return count;
@@ -96,7 +96,7 @@ std::vector<std::string> warnings_of(const std::vector<proto::FrameReport>& fram
       explained = explained || node.warning_size() > 0;
       for (const std::string& warning : node.warning()) add(warning);
     }
-    if (!explained && frame.node_size() > 0 && modules_left_out(frame) == modules)
+    if (!explained && frame.node_size() > 0 && modules_without_geometry(frame) == modules)
       add("nothing of the scene is seen: no module has any of it in its view");
   }
   return warnings;

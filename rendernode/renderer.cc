@@ -2,7 +2,9 @@
 #include "rendernode/renderer.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/state.h"
@@ -10,6 +12,20 @@
 #include "rendernode/pack_images.h"
 
 namespace lfd {
+namespace {
+
+// Of what the picture of every module depends on.
+std::string hash_of_shared(const proto::State& state) {
+  proto::State shared;
+  *shared.mutable_roi() = state.roi();
+  *shared.mutable_render() = state.render();
+  *shared.mutable_scene()->mutable_material() = state.scene().material();
+  *shared.mutable_scene()->mutable_light() = state.scene().light();
+  return content_hash(shared.SerializeAsString());
+}
+
+}  // namespace
+
 Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules)
     : display_(std::move(display)),
       modules_(std::move(modules)),
@@ -26,6 +42,7 @@ Status Renderer::set_state(const proto::State& state, const Assets& assets) {
   before.set_sequence(state.sequence());
   if (!state_ || !same_message(before, state)) state_changed_ = true;
   state_ = state;
+  shared_inputs_ = hash_of_shared(state);
   return {};
 }
 
@@ -125,15 +142,20 @@ Status Renderer::draw(const FrameOptions& options) {
   // Frames are collected in order: by then the images of the one that this repeats are there.
   slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;
   if (!slot.reused) {
-    slot.plan = plan_frame(
-        {&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_, options.buffers});
+    const bool may_reuse = options.reuse && drawn_buffers_ == options.buffers && !drawn_inputs_.empty();
+    slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
+                            options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr});
     const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
     LFD_TRY_STATUS(passes_.submit(slot.plan, commands,
                                   {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
                                   targets_, slot.timers));
     LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image));
     drawn_buffers_.reset();
-    if (options.read_back) drawn_buffers_ = options.buffers;
+    drawn_inputs_.clear();
+    if (options.read_back) {
+      drawn_buffers_ = options.buffers;
+      drawn_inputs_ = slot.plan.inputs;
+    }
     state_changed_ = false;
   }
   slot.submit_ms = milliseconds(Clock::now() - start);
@@ -200,13 +222,23 @@ std::vector<ModuleImage> Renderer::images_of(const Slot& slot) const {
     images.push_back(
         {modules_[item.layer], item.kind, display_.image, false, pack_image(item.kind, slot.readback.bytes(i), pack)});
   }
+  append_unchanged(slot, images);
   append_empty(slot, images);
   return images;
 }
 
+void Renderer::append_unchanged(const Slot& slot, std::vector<ModuleImage>& images) const {
+  for (const auto layer : slot.plan.unchanged_layers) {
+    std::ranges::copy_if(last_images_, std::back_inserter(images),
+                         [&](const ModuleImage& image) { return image.module == modules_[layer]; });
+  }
+}
+
 void Renderer::append_empty(const Slot& slot, std::vector<ModuleImage>& images) const {
   for (std::uint32_t layer = 0; layer < modules_.size(); ++layer) {
-    if (std::ranges::binary_search(slot.plan.active_layers, layer)) continue;
+    if (std::ranges::binary_search(slot.plan.active_layers, layer) ||
+        std::ranges::binary_search(slot.plan.unchanged_layers, layer))
+      continue;
     for (const auto kind : {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}) {
       if (kind != proto::COLOR && !slot.options.buffers.has(kind)) continue;
       images.push_back({modules_[layer], kind, display_.image, true, nullptr});

@@ -85,6 +85,7 @@ class Renderer {
   std::string why_nothing_is_seen() const;  // empty: something may be
   std::vector<ReadbackItem> wanted(const Slot& slot) const;
   std::vector<ModuleImage> images_of(const Slot& slot) const;
+  void append_unchanged(const Slot& slot, std::vector<ModuleImage>& images) const;
   void append_empty(const Slot& slot, std::vector<ModuleImage>& images) const;
   void fill_report(Slot& slot, proto::NodeReport& report);
 
@@ -115,6 +116,8 @@ class Renderer {
   // The last frame's images, and what they were drawn from, for frames in which nothing changes.
   std::vector<ModuleImage> last_images_;
   std::optional<BufferSet> drawn_buffers_;
+  std::vector<std::string> drawn_inputs_;  // of the last frame that was read back, by layer; FramePlan::inputs
+  std::string shared_inputs_;              // PlanInputs::shared of the state
   bool state_changed_ = true;
 };
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/hash.h"
 #include "base/log.h"
 #include "rendernode/geometry/triangle_feed.h"
 
@@ -86,7 +87,7 @@ Result<PhysicalGeometry> build_geometry(const proto::Scene& scene, const Assets&
     feed.begin_item(instance.material(), corners_of(**mesh, *placement, roi));
     const auto& index = (*mesh)->index;
     for (std::size_t t = 0; t + 2 < index.size(); t += 3) feed.add(index[t], index[t + 1], index[t + 2]);
-    feed.end_item();
+    feed.end_item(content_hash(instance.SerializeAsString()));
   }
   return geometry;
 }

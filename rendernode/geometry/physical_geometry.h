@@ -35,6 +35,7 @@ struct GeometryItem {
   std::uint32_t primitive_base = 0;  // of its planes
   std::uint32_t material = 0;
   Point3<Physical> low, high;  // bounds
+  std::string content = {};    // hash of the instance: equal ones have equal triangles in the same region of interest
 };
 
 struct PhysicalGeometry {

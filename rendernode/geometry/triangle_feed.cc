@@ -184,7 +184,8 @@ std::uint32_t TriangleFeed::write(const Corner& c) {
   return static_cast<std::uint32_t>(out_.vertices.size() - 1);
 }
 
-void TriangleFeed::end_item() {
+void TriangleFeed::end_item(std::string content) {
+  item_.content = std::move(content);
   item_.index_count = static_cast<std::uint32_t>(out_.indices.size()) - item_.first_index;
   if (item_.index_count > 0) out_.items.push_back(item_);
 }

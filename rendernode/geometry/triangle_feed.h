@@ -34,7 +34,7 @@ class TriangleFeed {
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   // Closes the item; an empty one leaves no trace.
-  void end_item();
+  void end_item(std::string content);
 
  private:
   using Triangle = std::array<Corner, 3>;

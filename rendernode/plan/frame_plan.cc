@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/hash.h"
 #include "base/log.h"
 
 namespace lfd {
@@ -18,6 +19,8 @@ class Planner {
   FramePlan plan() {
     choose_draws();
     choose_passes();
+    hash_inputs();
+    if (in_.drawn != nullptr && !everything_) drop_unchanged();
     return std::move(plan_);
   }
 
@@ -33,6 +36,7 @@ class Planner {
 
   void choose_draws() {
     std::map<std::pair<int, bool>, DrawGroup> groups;
+    plan_.inputs.resize(in_.modules->size());
     for (std::uint32_t layer = 0; layer < in_.modules->size(); ++layer) {
       const std::uint32_t number = (*in_.modules)[layer];
       const ModuleCalibration& module = in_.display->modules[number];
@@ -45,6 +49,7 @@ class Planner {
           continue;
         }
         seen = true;
+        plan_.inputs[layer] += item.content;
         const MaterialFacts& material = (*in_.materials)[item.material];
         DrawGroup& group = groups[{material.texture_group, material.alpha_mask}];
         group.texture_group = material.texture_group;
@@ -99,6 +104,27 @@ class Planner {
     plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (lights && in_.lights.need_normal);
     if (!plan_.normal) leave_out("target", "normal", "nothing reads it");
     choose_prepass(any, textured);
+  }
+
+  // What a layer's picture shows beside its items is the same for all layers.
+  void hash_inputs() {
+    const std::string passes =
+        fmt::format("{}{}{}{}{}{}", plan_.position, plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color);
+    for (std::string& items : plan_.inputs)
+      items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
+  }
+
+  void drop_unchanged() {
+    const auto is_unchanged = [&](std::uint32_t layer) { return (*in_.drawn)[layer] == plan_.inputs[layer]; };
+    std::erase_if(plan_.active_layers, [&](std::uint32_t layer) {
+      if (!is_unchanged(layer)) return false;
+      plan_.unchanged_layers.push_back(layer);
+      leave_out("module", std::to_string((*in_.modules)[layer]), "inputs unchanged since the last frame");
+      return true;
+    });
+    for (DrawGroup& group : plan_.groups)
+      std::erase_if(group.draws, [&](const DrawGroup::Draw& draw) { return is_unchanged(draw.layer); });
+    std::erase_if(plan_.groups, [](const DrawGroup& group) { return group.draws.empty(); });
   }
 
   // The prepass pays where a hidden fragment would cost texture fetches. That is a rule for GPUs, which it has not been

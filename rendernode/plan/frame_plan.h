@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "calibration/display.h"
@@ -47,6 +48,9 @@ struct PlanInputs {
   LightFacts lights;
   RenderSettings settings;
   BufferSet buffers;
+  // A hash of what every module's picture depends on: region of interest, settings, materials, lights.
+  std::string shared = {};
+  const std::vector<std::string>* drawn = nullptr;  // FramePlan::inputs of the images in hand; null: there are none
 };
 
 // Draws that one shader variant with one set of textures can make in one submission.
@@ -62,7 +66,9 @@ struct DrawGroup {
 
 struct FramePlan {
   std::vector<DrawGroup> groups;
-  std::vector<std::uint32_t> active_layers;  // layers that anything is drawn into
+  std::vector<std::uint32_t> active_layers;     // layers that anything is drawn into
+  std::vector<std::uint32_t> unchanged_layers;  // layers whose images in hand are still true
+  std::vector<std::string> inputs;              // of each layer: a hash of all that its picture depends on
   bool z_prepass = true, position = true, normal = true, ao = true, blur = true, post = true;
   bool color = false;  // the post pass corrects colours: a module of the node has a colour calibration
   std::vector<proto::LeftOut> left_out;

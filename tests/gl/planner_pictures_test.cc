@@ -193,5 +193,43 @@ TEST_F(Reuse, EveryOtherInputCountsToo) {
   EXPECT_FALSE(reused(other_buffers));
 }
 
+// Six walls one behind another, far to the right before the screen, so that each module sees another part of them.
+TEST(ReuseOfModules, ThatDoNotSeeWhatMovedGivesTheSameImages) {
+  const DisplayCalibration display = small_display(12);
+  const auto modules = all_modules(display);
+  const SceneData data = made_data("depth-steps");
+  const RegionOfInterest roi = aside(data, display);
+  const FrameOptions options{.buffers = buffers({proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH})};
+  const auto unchanged = [](const FrameResult& result) {
+    return std::ranges::count(result.report.left_out(), "inputs unchanged since the last frame", &proto::LeftOut::why);
+  };
+  std::ptrdiff_t fewest = 12, most = 0;
+  proto::State state = state_of(data, roi);
+  Renderer renderer(context(), display, modules);
+  draw_once(renderer, state, data.assets, options);
+  for (int i = 0; i < state.scene().instance_size(); ++i) {
+    auto& x = *state.mutable_scene()->mutable_instance(i)->mutable_world_from_mesh();
+    x[3] += 0.02;
+    const FrameResult moved = draw_once(renderer, state, data.assets, options);
+    Renderer fresh(context(), display, modules);
+    const FrameResult expected = draw_once(fresh, state, data.assets, options);
+    EXPECT_EQ(unchanged(expected), 0);
+    expect_same(moved, expected, modules, std::string("\0\0\0\xff", 4));
+    fewest = std::min(fewest, unchanged(moved));
+    most = std::max(most, unchanged(moved));
+  }
+  EXPECT_GT(most, 0) << "some modules do not see what moved";
+  EXPECT_LT(fewest, 12) << "some modules do";
+  // Light reaches all of them.
+  state.mutable_render()->mutable_ao()->set_enabled(false);
+  state.mutable_scene()->mutable_light(0)->set_color(0, 0.5F);
+  EXPECT_EQ(unchanged(draw_once(renderer, state, data.assets, options)), 0);
+  // Nothing in hand: the last frame was not read back.
+  state.mutable_scene()->mutable_light(0)->set_color(0, 0.25F);
+  draw_once(renderer, state, data.assets, {.buffers = options.buffers, .read_back = false});
+  state.mutable_scene()->mutable_instance(0)->mutable_world_from_mesh()->Set(3, 0.3);
+  EXPECT_EQ(unchanged(draw_once(renderer, state, data.assets, options)), 0);
+}
+
 }  // namespace
 }  // namespace lfd

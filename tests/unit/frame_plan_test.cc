@@ -13,6 +13,9 @@
 namespace lfd {
 namespace {
 
+using testing::ElementsAre;
+using testing::IsEmpty;
+
 // A display of four modules, one visible untextured lit item; each test changes what it is about.
 class FramePlanning : public testing::Test {
  protected:
@@ -34,7 +37,7 @@ class FramePlanning : public testing::Test {
   }
 
   FramePlan plan() const {
-    return plan_frame({&display_, &modules_, &items_, &materials_, lights_, settings_, buffers_});
+    return plan_frame({&display_, &modules_, &items_, &materials_, lights_, settings_, buffers_, shared_, drawn_});
   }
 
   static const proto::LeftOut* left_out(const FramePlan& plan, const std::string& what, const std::string& which) {
@@ -55,7 +58,33 @@ class FramePlanning : public testing::Test {
   LightFacts lights_{true, true};
   RenderSettings settings_;
   BufferSet buffers_;
+  std::string shared_;
+  const std::vector<std::string>* drawn_ = nullptr;
 };
+
+TEST_F(FramePlanning, LeavesOutModulesWhoseInputsAreThoseOfTheImagesInHand) {
+  items_[0].content = "a";
+  const FramePlan first = plan();
+  ASSERT_EQ(first.inputs.size(), 4U);
+  EXPECT_THAT(first.unchanged_layers, IsEmpty());
+  drawn_ = &first.inputs;
+  const FramePlan again = plan();
+  EXPECT_THAT(again.active_layers, IsEmpty());
+  EXPECT_THAT(again.groups, IsEmpty());
+  EXPECT_THAT(again.unchanged_layers, ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(why(again, "module", "2"), "inputs unchanged since the last frame");
+  items_[0].content = "b";
+  EXPECT_THAT(plan().active_layers, ElementsAre(0, 1, 2, 3));
+  items_[0].content = "a";
+  shared_ = "other lights";
+  EXPECT_THAT(plan().active_layers, ElementsAre(0, 1, 2, 3));
+  shared_ = "";
+  buffers_.bits = 1U << proto::NORMAL;
+  EXPECT_THAT(plan().active_layers, ElementsAre(0, 1, 2, 3));
+  buffers_ = {};
+  settings_.plan = false;
+  EXPECT_THAT(plan().active_layers, ElementsAre(0, 1, 2, 3)) << "everything is drawn";
+}
 
 TEST_F(FramePlanning, ALitTexturedSceneNeedsEverything) {
   materials_[0].texture_group = 0;
