@@ -133,7 +133,7 @@ void add_limits(CLI::App& command, AcceptanceLimits& limits) {
   add("--max-round-trip-px", limits.round_trip_max_px, "Round trip image, screen, image: its maximum");
   add("--max-mirrored", limits.mirrored, "Share of a module's image that is mirrored, of 1");
   add("--max-singular", limits.near_singular, "Share of a module's image that is squeezed 1000 times one way");
-  add("--max-folded", limits.folded, "Share of a grid's cells that have folded");
+  add("--max-folded", limits.folded, "Share of a grid's cells that have folded anywhere in them");
   add("--max-unmapped", limits.image_unmapped, "Share of a module's image without a map: holes, folds");
   add("--max-condition", limits.condition_max, "Condition number of d(image)/d(physical)");
   add("--min-coverage", limits.coverage_least, "Share of the screen that each module lights");

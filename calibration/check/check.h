@@ -30,7 +30,8 @@ struct MapNumbers {
   // Shares of the points on the screen at which the map, measured against the ideal one, mirrors, or squeezes one
   // direction 1000 times more than another.
   double mirrored = 0, near_singular = 0;
-  // Grid maps: share of cells that have folded, and of those that lack a corner (GridMap); 0 for other maps.
+  // Grid maps: share of cells that have folded anywhere in them, which bounds prove and not samples, and of those that
+  // lack a corner (GridMap); 0 for other maps.
   double folded = 0, incomplete = 0;
   // condition_number() of derivative_by_physical() over the box, where there is an image.
   double condition_median = 0, condition_99 = 0, condition_max = 0;

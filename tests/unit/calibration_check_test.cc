@@ -142,16 +142,43 @@ TEST(Check, AHoleOfKnownAreaIsMissingFromImageAndScreen) {
 }
 
 TEST(Check, AFoldedCornerIsRefused) {
-  // The outermost node is drawn over its neighbours: the corner's cell folds.
+  // The outermost node is drawn over its neighbours: the slopes at these turn back, so that the corner's cell and the
+  // next ones along both borders fold.
   const GridMap folded = grid_of(16, 8, [](GridNodes& nodes) { node(nodes, 0, 0) = {-0.7, 0.2}; });
   const auto report = checked(folded);
-  EXPECT_NEAR(report.modules[0].folded, 1.0 / 128, 1e-12);
+  EXPECT_NEAR(report.modules[0].folded, 3.0 / 128, 1e-12);
   EXPECT_THAT(missed_limits(report, {}), testing::Contains(HasSubstr("folded share of the grid")));
   DisplayCalibration display = one_module();
   display.modules[0].map = folded;
   EXPECT_FALSE(accept_calibration(display));
   display.modules[0].map = grid_of(16, 8);
   EXPECT_TRUE(accept_calibration(display));
+}
+
+// The `desk` of `lfd-calibrate make desk --grid 33x25`, node (16, row) of its module 3 moved right by a share of a
+// cell.
+DisplayCalibration desk_with_moved_node(int row, double cells) {
+  DisplayCalibration display = *measured(*make_display("desk"), 33, 25, 0, 1);
+  GridMap& map = std::get<GridMap>(display.modules[3].map);
+  GridNodes nodes = map.nodes();
+  node(nodes, 16, row).x += cells * (nodes.at(17, row).x - nodes.at(16, row).x);
+  map = *GridMap::make(nodes);
+  return display;
+}
+
+// Folds that lie between the middles of cells and between the places that a quick check looks at.
+TEST(Check, FoldsWithinCellsAreRefused) {
+  for (const auto& [row, cells] : {std::pair{12, 0.9}, {10, 1.1}, {10, 1.2}}) {
+    const DisplayCalibration display = desk_with_moved_node(row, cells);
+    const auto report = check_calibration(display, 0.1, kQuickSampling);
+    EXPECT_EQ(report.worst_by(&MapNumbers::folded), 3);
+    EXPECT_LE(report.modules[3].folded, 12.0 / (32 * 24)) << "the cells that the node bends";
+    EXPECT_THAT(missed_limits(report, {}), testing::Contains(HasSubstr("folded share of the grid")));
+    const Status accepted = accept_calibration(display);
+    ASSERT_FALSE(accepted);
+    EXPECT_THAT(accepted.error().message(), HasSubstr("folded share of the grid"));
+  }
+  EXPECT_TRUE(accept_calibration(desk_with_moved_node(12, 0.3)));
 }
 
 TEST(Check, CurvedScreensHaveAnglesConditionsAndCoverage) {
