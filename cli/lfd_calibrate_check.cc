@@ -69,6 +69,9 @@ void print_angles(const AngularReport& angles) {
                                ? fmt::format(", {:.3g} x the rule of 1.5 x spacing", *angles.scattering_over_rule)
                                : "";
   print_line("angular scattering", fmt::format("{:.3f} degrees{}", degrees(angles.scattering_rad), rule));
+  if (angles.gap_over_scattering) {
+    print_line("largest angle", fmt::format("{:.3g} x the scattering", *angles.gap_over_scattering));
+  }
 }
 
 void print_depth(const std::optional<DepthBudget>& depth) {
@@ -134,9 +137,17 @@ void add_limits(CLI::App& command, AcceptanceLimits& limits) {
   add("--max-mirrored", limits.mirrored, "Share of a module's image that is mirrored, of 1");
   add("--max-singular", limits.near_singular, "Share of a module's image that is squeezed 1000 times one way");
   add("--max-folded", limits.folded, "Share of a grid's cells that have folded anywhere in them");
-  add("--max-unmapped", limits.image_unmapped, "Share of a module's image without a map: holes, folds");
+  add("--max-unmapped", limits.image_unmapped, "Share of a module's image without a map: holes, folds, beside a grid");
+  add("--max-holes", limits.incomplete, "Share of a grid's cells that lack a corner");
   add("--max-condition", limits.condition_max, "Condition number of d(image)/d(physical)");
   add("--min-coverage", limits.coverage_least, "Share of the screen that each module lights");
+  add("--max-gap", limits.gap_over_scattering,
+      "Largest angle between neighbouring emitters over the angular scattering, which has to bridge it: 2/3 by the "
+      "rule "
+      "of thumb, 4/3 where a module is missing");
+  add("--min-depth", limits.depth_least_m,
+      "How far from the screen the spot of a ray may be twice that on it, m, at the least; 0 asks for nothing, since "
+      "pixels and number of modules decide it");
 }
 
 }  // namespace

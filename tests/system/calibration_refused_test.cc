@@ -25,7 +25,7 @@ DisplayCalibration small_display() {
   display.screen = {1.6, 0.9};
   display.image = {16, 8};
   display.optics = {Diffuser::kLinear, 0, 2};
-  display.angular_scattering_rad = 0.1;
+  display.angular_scattering_rad = 0.4;
   for (int k = 0; k < 4; ++k) display.modules.push_back({Emitter{-0.6 + 0.4 * k, 0, -1}, IdealMap{}});
   return display;
 }

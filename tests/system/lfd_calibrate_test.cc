@@ -151,6 +151,17 @@ TEST(LfdCalibrate, NamesEveryMissedLimitOnALineOfItsOwn) {
   EXPECT_THAT(answer.text, HasSubstr("\nmissed: coverage: 1 of the screen (module 0); at least 1.5 is accepted\n"));
 }
 
+TEST(LfdCalibrate, LimitsGapsDepthAndHoles) {
+  EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
+  const Answer gap = calibrate("check " + kDesk + " --max-gap 0.5");
+  EXPECT_EQ(gap.exit_code, 1);
+  EXPECT_THAT(gap.text, HasSubstr("missed: angle between neighbouring emitters: "));
+  const Answer depth = calibrate("check " + kDesk + " --min-depth 10");
+  EXPECT_EQ(depth.exit_code, 1);
+  EXPECT_THAT(depth.text, HasSubstr("missed: depth: the spot has doubled "));
+  EXPECT_EQ(calibrate("check " + kDesk + " --max-holes -1").exit_code, 2);
+}
+
 TEST(LfdCalibrate, TellsProgramsEverythingAsJson) {
   const Answer answer = calibrate("check " + kDesk + " --json --min-coverage 1.5 2>/dev/null; exit $?");
   EXPECT_EQ(answer.exit_code, 1);
@@ -170,6 +181,10 @@ TEST(LfdCalibrate, TellsProgramsEverythingAsJson) {
   }
   EXPECT_EQ(json["all"]["coverage"], 1.0);
   EXPECT_EQ(json["angles"]["order"], "left_to_right");
+  EXPECT_LT(json["angles"]["gap_over_scattering"], 0.7);
+  for (const char* const key : {"incomplete", "gap_over_scattering", "depth_least_m"}) {
+    EXPECT_TRUE(json["limits"].contains(key)) << key;
+  }
   EXPECT_EQ(json["depth"]["spots"][0]["distance_m"], 0.0);
 }
 
