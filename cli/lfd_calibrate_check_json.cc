@@ -81,6 +81,12 @@ Json depth_json(const std::optional<DepthBudget>& depth) {
   return json;
 }
 
+Json roi_json(const std::optional<PhysicalBox>& roi) {
+  if (!roi) return nullptr;
+  return {{"physical_centre", {roi->centre.x, roi->centre.y, roi->centre.z}},
+          {"physical_size", {roi->size.x, roi->size.y, roi->size.z}}};
+}
+
 Json limits_json(const AcceptanceLimits& limits) {
   return {{"round_trip_max_px", number(limits.round_trip_max_px)},
           {"mirrored", number(limits.mirrored)},
@@ -104,7 +110,8 @@ std::string check_json(const DisplayCalibration& display, const CalibrationRepor
             {"accepted", missed.empty()},
             {"missed", missed},
             {"limits", limits_json(limits)},
-            {"half_depth_m", report.half_depth_m},
+            {"half_depth_m", report.sampling.roi ? Json() : Json(report.half_depth_m)},
+            {"roi", roi_json(report.sampling.roi)},
             {"all", numbers_json(report.all)},
             {"worst_module", worst_json(report)},
             {"coverage_any", report.coverage_any},

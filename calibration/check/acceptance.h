@@ -34,7 +34,9 @@ struct AcceptanceLimits {
 std::vector<std::string> missed_limits(const CalibrationReport& report, const AcceptanceLimits& limits);
 
 // A quick check (kQuickSampling) against the default limits; an error says all that are missed. It looks at fewer
-// points than `lfd-calibrate check` does, but at every cell of a grid.
+// points than `lfd-calibrate check` does, but at every cell of a grid. The condition number is taken around the screen,
+// not in a deployment's region of interest: that follows from the bounds of a scene, which is loaded after a controller
+// has accepted its display, and moves on request.
 Status accept_calibration(const DisplayCalibration& display);
 
 }  // namespace lfd

@@ -10,11 +10,19 @@
 
 namespace lfd {
 
-// Where a check looks: points evenly over every image and over the screen, and over the box of physical space.
+// An axis-aligned box of physical space, as a region of interest has one; edge lengths in metres, > 0.
+struct PhysicalBox {
+  Point3<Physical> centre;
+  glm::dvec3 size{1.0};
+};
+
+// Where a check looks: points evenly over every image and over the screen, and over a box of physical space, in which
+// the condition number is taken: `roi`, or else the screen and half_depth_m before and behind its surface.
 struct CheckSampling {
   int image_columns = 48, image_rows = 36;
   int screen_columns = 65, screen_rows = 49;
   int box_points = 9;  // along each axis
+  std::optional<PhysicalBox> roi = std::nullopt;
 };
 inline constexpr CheckSampling kThoroughSampling{};
 // Some 1600 evaluations of the map per module: 64 measured grids take about 0.15 s on one core.
@@ -40,7 +48,7 @@ struct MapNumbers {
 
 struct CalibrationReport {
   CheckSampling sampling;
-  double half_depth_m = 0;  // of the box: the screen and so much before and behind its surface
+  double half_depth_m = 0;  // of the box around the screen
   MapNumbers all;
   std::vector<MapNumbers> modules;
   double coverage_any = 0;   // share of the screen lit by at least one module

@@ -107,7 +107,8 @@ TEST(LfdCalibrate, MakesMeasuredAndCurvedDisplaysThatPassTheCheck) {
     EXPECT_EQ(info.text.find("cylinder") != std::string::npos, is_curved) << info.text;
   }
   std::remove(file.c_str());
-  for (const char* wrong : {"--grid 33", "--grid 1x5", "--warp 2", "--observer-arc", "--radius 0", "--radius nan", "--grids pfm"})
+  for (const char* wrong :
+       {"--grid 33", "--grid 1x5", "--warp 2", "--observer-arc", "--radius 0", "--radius nan", "--grids pfm"})
     EXPECT_EQ(calibrate("make desk " + std::string(wrong)).exit_code, 2) << wrong;
   EXPECT_THAT(calibrate("make c80-conical --radius 2").text, HasSubstr("CONICAL on a curved screen"));
 }
@@ -160,6 +161,17 @@ TEST(LfdCalibrate, LimitsGapsDepthAndHoles) {
   EXPECT_EQ(depth.exit_code, 1);
   EXPECT_THAT(depth.text, HasSubstr("missed: depth: the spot has doubled "));
   EXPECT_EQ(calibrate("check " + kDesk + " --max-holes -1").exit_code, 2);
+}
+
+TEST(LfdCalibrate, TakesTheConditionInTheRegionOfInterest) {
+  EXPECT_THAT(calibrate("check " + kDesk + " --roi 0,0,0,0.4,0.3,0.1").text, HasSubstr(", in the region of interest"));
+  const auto json = nlohmann::json::parse(calibrate("check " + kDesk + " --json --roi=-0.1,0,0,0.4,0.3,0.1").text);
+  EXPECT_EQ(json["roi"]["physical_centre"][0], -0.1);
+  EXPECT_EQ(json["roi"]["physical_size"][2], 0.1);
+  EXPECT_TRUE(json["half_depth_m"].is_null());
+  EXPECT_EQ(calibrate("check " + kDesk + " --roi 0,0,0,0.4,0.3,0").exit_code, 2);
+  EXPECT_EQ(calibrate("check " + kDesk + " --roi 0,0,0,nan,1,1").exit_code, 2);
+  EXPECT_EQ(calibrate("check " + kDesk + " --roi 0,0,0,1 --depth 1").exit_code, 2);
 }
 
 TEST(LfdCalibrate, TellsProgramsEverythingAsJson) {

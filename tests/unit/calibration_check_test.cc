@@ -133,6 +133,23 @@ TEST(Check, ConditionOfTheLinearDisplayIsThatOfItsShear) {
   EXPECT_LE(report.all.condition_99, report.all.condition_max);
 }
 
+TEST(Check, ConditionIsTakenInTheRegionOfInterest) {
+  const DisplayCalibration display = one_module();
+  CheckSampling sampling = kQuickSampling;
+  // A point at z = 0, but for a micrometre: the shear of the linear display alone.
+  sampling.roi = PhysicalBox{{0.9, -0.4, 0}, glm::dvec3(1e-6)};
+  const auto report = check_calibration(display, 0.2, sampling);
+  const double shear = std::pow((0.9 - 0.2) / 2, 2) + std::pow((-0.4 - 0.5) / 4, 2);
+  EXPECT_NEAR(report.all.condition_median, (3 + shear) / 3, 1e-5);
+  EXPECT_NEAR(report.all.condition_max, report.all.condition_median, 1e-5);
+  // 2 mm before the observers' line a step up moves the image by 2000 times as much.
+  sampling.roi = PhysicalBox{{0.2, 0.4999, 3.998}, {0.01, 1e-5, 1e-4}};
+  EXPECT_THAT(missed_limits(check_calibration(display, 0.2, sampling), {}), ElementsAre(HasSubstr("condition number")));
+  // Behind the emitter nothing has an image.
+  sampling.roi = PhysicalBox{{0, 0, -3}, glm::dvec3(1)};
+  EXPECT_EQ(check_calibration(display, 0.2, sampling).all.condition_max, 0);
+}
+
 TEST(Check, AHoleOfKnownAreaIsMissingFromImageAndScreen) {
   // Without four nodes of a row 5 x 2 of 40 x 20 cells are missing.
   const auto report = checked(grid_of(40, 20, [](GridNodes& nodes) {
