@@ -111,7 +111,8 @@ void add_fit_command(CLI::App& app, int& exit_code) {
       "beside\n"
       "--emitter-sd, 1 degree for each turn, 2 % of the focal lengths, 3 % of the image's width for the principal "
       "point,\n"
-      "1 to 3 % of it for what each lens coefficient moves the furthest corner, 20 % of the radius.");
+      "1 to 3 % of it for what each lens coefficient moves the furthest corner, 20 % of the radius.\n"
+      "The radius stays the start's where a module needs a grid: warps look like curvature.");
 }
 
 }  // namespace lfd
