@@ -70,9 +70,9 @@ Status validate_matrix(const glm::dmat3& m) {
   }
   const double condition = frobenius(m) * frobenius(glm::inverse(m)) / 3;
   if (condition <= kMaxCondition) return {};
+  if (!std::isfinite(condition)) return Error("device_from_display: is singular");
   return Error(
-      fmt::format("device_from_display: is singular or nearly so: condition number {:.3g}; at most {} is "
-                  "possible",
+      fmt::format("device_from_display: is singular or nearly so: condition number {:.3g}; at most {} is possible",
                   condition, kMaxCondition));
 }
 

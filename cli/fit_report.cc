@@ -56,6 +56,7 @@ std::string fit_json(const FittedDisplay& fitted, const Observations& observatio
             {"observations", {{"file", observations.source}, {"count", observations.points.size()}}},
             {"screen_radius_m", fitted.display.optics.screen_radius_m},
             {"screen_radius_sd_m", fitted.radius_sd_m},
+            {"screen_radius_is_held", fitted.radius_is_held},
             {"modules", Json::array()},
             {"outliers", Json::array()}};
   for (std::size_t k = 0; k < fitted.modules.size(); ++k) json["modules"].push_back(module_json(k, fitted.modules[k]));
@@ -78,7 +79,9 @@ std::string fit_table(const FittedDisplay& fitted, const Observations& observati
                    module.is_grid ? "grid" : "pinhole", summary_text(module.before), summary_text(module.after));
   }
   if (const double radius = fitted.display.optics.screen_radius_m; radius != 0) {
-    fmt::format_to(out, "screen radius: {:.6g} m, standard deviation {:.2g} m\n", radius, fitted.radius_sd_m);
+    fmt::format_to(out, "screen radius: {:.6g} m, {}\n", radius,
+                   fitted.radius_is_held ? "the start's: warps that no pinhole has hide it"
+                                         : fmt::format("standard deviation {:.2g} m", fitted.radius_sd_m));
   }
   if (const std::string held = held_text(fitted.modules); !held.empty()) {
     fmt::format_to(out, "held by the start more than by the observations: {}\n", held);

@@ -1,6 +1,7 @@
 // lfd-calibrate check: a calibration's numbers, and whether it is accepted.
 #include "cli/lfd_calibrate_check.h"
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -39,10 +40,11 @@ void print_maps(const CalibrationReport& report) {
   print_line("near singular", share_line(report, &MapNumbers::near_singular));
   print_line("grid cells folded", share_line(report, &MapNumbers::folded));
   print_line("grid cells in holes", share_line(report, &MapNumbers::incomplete));
-  print_line("condition number", fmt::format("median {:.3g}, 99 % {:.3g}, max {:.3g} (module {}), within {:.3g} m of "
-                                             "the screen",
-                                             all.condition_median, all.condition_99, all.condition_max,
-                                             report.worst_by(&MapNumbers::condition_max), report.half_depth_m));
+  const std::string where = report.sampling.roi ? "in the region of interest"
+                                                : fmt::format("within {:.3g} m of the screen", report.half_depth_m);
+  print_line("condition number",
+             fmt::format("median {:.3g}, 99 % {:.3g}, max {:.3g} (module {}), {}", all.condition_median,
+                         all.condition_99, all.condition_max, report.worst_by(&MapNumbers::condition_max), where));
   const int darkest = report.least_covering();
   print_line("coverage of screen", fmt::format("mean {}, least {} (module {}), by any module {}", percent(all.coverage),
                                                percent(report.modules[static_cast<std::size_t>(darkest)].coverage),
@@ -69,6 +71,9 @@ void print_angles(const AngularReport& angles) {
                                ? fmt::format(", {:.3g} x the rule of 1.5 x spacing", *angles.scattering_over_rule)
                                : "";
   print_line("angular scattering", fmt::format("{:.3f} degrees{}", degrees(angles.scattering_rad), rule));
+  if (angles.gap_over_scattering) {
+    print_line("largest angle", fmt::format("{:.3g} x the scattering", *angles.gap_over_scattering));
+  }
 }
 
 void print_depth(const std::optional<DepthBudget>& depth) {
@@ -98,7 +103,21 @@ void print_modules(const CalibrationReport& report) {
   std::cout << "\n";
 }
 
+// Of --roi: absent where it was not given.
+Result<std::optional<PhysicalBox>> roi_of(const std::vector<double>& numbers) {
+  if (numbers.empty()) return std::optional<PhysicalBox>();
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!std::isfinite(numbers[i]) || (i > 2 && !(numbers[i] > 0))) {
+      return Error(
+          fmt::format("--roi: number {}: {:g}; finite numbers are needed, edge lengths above 0", i + 1, numbers[i]));
+    }
+  }
+  return std::optional(PhysicalBox{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}});
+}
+
 int run_check(const CheckOptions& options) {
+  const auto roi = roi_of(options.roi);
+  if (!roi) return wrong_use(roi.error());
   const auto display = load_calibration(options.file);
   if (!display) return fail(display.error());
   const int modules = static_cast<int>(display->modules.size());
@@ -106,7 +125,9 @@ int run_check(const CheckOptions& options) {
     return wrong_use(
         Error(fmt::format("--module: {}; the display has modules 0 to {}", *options.plot_module, modules - 1)));
   }
-  const auto report = check_calibration(*display, options.depth_m.value_or(default_half_depth_m(*display)));
+  CheckSampling sampling = kThoroughSampling;
+  sampling.roi = *roi;
+  const auto report = check_calibration(*display, options.depth_m.value_or(default_half_depth_m(*display)), sampling);
   const auto missed = missed_limits(report, options.limits);
   if (options.json) {
     std::cout << check_json(*display, report, options.limits);
@@ -133,10 +154,18 @@ void add_limits(CLI::App& command, AcceptanceLimits& limits) {
   add("--max-round-trip-px", limits.round_trip_max_px, "Round trip image, screen, image: its maximum");
   add("--max-mirrored", limits.mirrored, "Share of a module's image that is mirrored, of 1");
   add("--max-singular", limits.near_singular, "Share of a module's image that is squeezed 1000 times one way");
-  add("--max-folded", limits.folded, "Share of a grid's cells that have folded");
-  add("--max-unmapped", limits.image_unmapped, "Share of a module's image without a map: holes, folds");
+  add("--max-folded", limits.folded, "Share of a grid's cells that have folded anywhere in them");
+  add("--max-unmapped", limits.image_unmapped, "Share of a module's image without a map: holes, folds, beside a grid");
+  add("--max-holes", limits.incomplete, "Share of a grid's cells that lack a corner");
   add("--max-condition", limits.condition_max, "Condition number of d(image)/d(physical)");
   add("--min-coverage", limits.coverage_least, "Share of the screen that each module lights");
+  add("--max-gap", limits.gap_over_scattering,
+      "Largest angle between neighbouring emitters over the angular scattering, which has to bridge it: 2/3 by the "
+      "rule "
+      "of thumb, 4/3 where a module is missing");
+  add("--min-depth", limits.depth_least_m,
+      "How far from the screen the spot of a ray may be twice that on it, m, at the least; 0 asks for nothing, since "
+      "pixels and number of modules decide it");
 }
 
 }  // namespace
@@ -152,8 +181,17 @@ void add_check_command(CLI::App& app, int& exit_code) {
                    "screen's width, at most half the way to emitters and observers")
       ->check(CLI::PositiveNumber)
       ->type_name("M");
+  command
+      ->add_option(
+          "--roi", options->roi,
+          "Take the condition number in this box instead, a deployment's region of interest in physical space: "
+          "cx,cy,cz,sx,sy,sz (centre and edge lengths, m; the screen's centre is 0,0,0)")
+      ->delimiter(',')
+      ->expected(6)
+      ->excludes("--depth");
   command->add_flag("--json", options->json,
-                    "Everything as one JSON object: accepted, missed, limits, all, worst_module, coverage_any, "
+                    "Everything as one JSON object: accepted, missed, limits, half_depth_m, roi, all, worst_module, "
+                    "coverage_any, "
                     "pixel_width_m, angles, depth, modules; null for what is infinite or absent");
   command->add_flag("--per-module", options->per_module, "A table of all modules as well");
   command->add_option("--plot", options->plot_folder, "Write pictures (SVG) into this folder")->type_name("DIR");

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calibration/check/acceptance.h"
 
@@ -11,6 +12,7 @@ namespace lfd {
 struct CheckOptions {
   std::string file;
   std::optional<double> depth_m;
+  std::vector<double> roi;  // centre and edge lengths of a box in physical space, m; empty: around the screen
   AcceptanceLimits limits;
   bool json = false;
   bool per_module = false;

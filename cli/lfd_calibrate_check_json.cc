@@ -61,7 +61,8 @@ Json angles_json(const AngularReport& angles) {
             {"order", kOrders[static_cast<int>(angles.order)]},
             {"gaps", Json::array()},
             {"scattering_rad", angles.scattering_rad},
-            {"scattering_over_rule", angles.scattering_over_rule ? Json(*angles.scattering_over_rule) : Json()}};
+            {"scattering_over_rule", angles.scattering_over_rule ? number(*angles.scattering_over_rule) : Json()},
+            {"gap_over_scattering", angles.gap_over_scattering ? number(*angles.gap_over_scattering) : Json()}};
   for (const AngularGap& gap : angles.gaps) {
     json["gaps"].push_back({{"modules", {gap.left_module, gap.right_module}}, {"angle_rad", gap.angle_rad}});
   }
@@ -80,11 +81,23 @@ Json depth_json(const std::optional<DepthBudget>& depth) {
   return json;
 }
 
+Json roi_json(const std::optional<PhysicalBox>& roi) {
+  if (!roi) return nullptr;
+  return {{"physical_centre", {roi->centre.x, roi->centre.y, roi->centre.z}},
+          {"physical_size", {roi->size.x, roi->size.y, roi->size.z}}};
+}
+
 Json limits_json(const AcceptanceLimits& limits) {
-  return {{"round_trip_max_px", number(limits.round_trip_max_px)}, {"mirrored", number(limits.mirrored)},
-          {"near_singular", number(limits.near_singular)},         {"folded", number(limits.folded)},
-          {"image_unmapped", number(limits.image_unmapped)},       {"condition_max", number(limits.condition_max)},
-          {"coverage_least", number(limits.coverage_least)}};
+  return {{"round_trip_max_px", number(limits.round_trip_max_px)},
+          {"mirrored", number(limits.mirrored)},
+          {"near_singular", number(limits.near_singular)},
+          {"folded", number(limits.folded)},
+          {"image_unmapped", number(limits.image_unmapped)},
+          {"condition_max", number(limits.condition_max)},
+          {"coverage_least", number(limits.coverage_least)},
+          {"incomplete", number(limits.incomplete)},
+          {"gap_over_scattering", number(limits.gap_over_scattering)},
+          {"depth_least_m", number(limits.depth_least_m)}};
 }
 
 }  // namespace
@@ -97,7 +110,8 @@ std::string check_json(const DisplayCalibration& display, const CalibrationRepor
             {"accepted", missed.empty()},
             {"missed", missed},
             {"limits", limits_json(limits)},
-            {"half_depth_m", report.half_depth_m},
+            {"half_depth_m", report.sampling.roi ? Json() : Json(report.half_depth_m)},
+            {"roi", roi_json(report.sampling.roi)},
             {"all", numbers_json(report.all)},
             {"worst_module", worst_json(report)},
             {"coverage_any", report.coverage_any},

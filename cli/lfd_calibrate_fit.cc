@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "calibration/fit/fit.h"
 #include "calibration/fit/simulate.h"
+#include "cli/fit_plots.h"
 #include "cli/fit_report.h"
 #include "cli/lfd_calibrate.h"
 #include "proto/calibration_file.h"
@@ -22,6 +23,7 @@ struct SimulateOptions {
 
 struct FitCommandOptions {
   std::string observations, start, out;
+  std::string plot_folder;  // empty: no pictures
   bool json = false, no_grids = false;
   FitOptions fit;
 };
@@ -52,6 +54,11 @@ int run_fit(const FitCommandOptions& options) {
   const auto fitted = fit_display(*start, *observations, fit);
   if (!fitted) return fail(fitted.error());
   if (auto status = save_calibration(options.out, fitted->display); !status) return fail(status.error());
+  if (!options.plot_folder.empty()) {
+    if (auto status = write_fit_plots(options.plot_folder, *fitted, *observations); !status) {
+      return fail(status.error());
+    }
+  }
   std::cout << (options.json ? fit_json(*fitted, *observations) : fit_table(*fitted, *observations)) << std::flush;
   return std::cout ? kExitDone : fail(Error("standard output: cannot be written"));
 }
@@ -87,6 +94,9 @@ void add_fit_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("DISPLAY");
   command->add_option("--out", options->out, "Calibration file to write")->required()->type_name("FILE");
+  command
+      ->add_option("--plot", options->plot_folder, "Write a picture (SVG) of each module's residuals into this folder")
+      ->type_name("DIR");
   command->add_flag("--json", options->json, "Report as JSON");
   command->add_flag("--no-grids", options->no_grids, "All modules stay pinholes, whatever they leave of the residuals");
   command
@@ -101,7 +111,8 @@ void add_fit_command(CLI::App& app, int& exit_code) {
       "beside\n"
       "--emitter-sd, 1 degree for each turn, 2 % of the focal lengths, 3 % of the image's width for the principal "
       "point,\n"
-      "1 to 3 % of it for what each lens coefficient moves the furthest corner, 20 % of the radius.");
+      "1 to 3 % of it for what each lens coefficient moves the furthest corner, 20 % of the radius.\n"
+      "The radius stays the start's where a module needs a grid: warps look like curvature.");
 }
 
 }  // namespace lfd

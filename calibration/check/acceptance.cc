@@ -18,12 +18,22 @@ std::vector<std::string> missed_limits(const CalibrationReport& report, const Ac
   at_most("near singular share of the image", &MapNumbers::near_singular, limits.near_singular);
   at_most("folded share of the grid", &MapNumbers::folded, limits.folded);
   at_most("share of the image without a map", &MapNumbers::image_unmapped, limits.image_unmapped);
+  at_most("share of the grid in holes", &MapNumbers::incomplete, limits.incomplete);
   at_most("condition number", &MapNumbers::condition_max, limits.condition_max);
   const int darkest = report.least_covering();
   const double coverage = report.modules[static_cast<std::size_t>(darkest)].coverage;
   if (coverage < limits.coverage_least) {
     missed.push_back(fmt::format("coverage: {:.4g} of the screen (module {}); at least {:.4g} is accepted", coverage,
                                  darkest, limits.coverage_least));
+  }
+  if (const double gap = report.angles.gap_over_scattering.value_or(0); gap > limits.gap_over_scattering) {
+    missed.push_back(
+        fmt::format("angle between neighbouring emitters: {:.4g} x the angular scattering; at most {:.4g} is accepted",
+                    gap, limits.gap_over_scattering));
+  }
+  if (const double depth = report.depth ? report.depth->doubled_at_m : 0; depth < limits.depth_least_m) {
+    missed.push_back(fmt::format("depth: the spot has doubled {:.4g} m from the screen; at least {:.4g} m is accepted",
+                                 depth, limits.depth_least_m));
   }
   return missed;
 }

@@ -65,6 +65,11 @@ AngularReport check_angles(const DisplayCalibration& display) {
   report.from_right = spacing_of(emitter_directions(display, {border, 0}));
   report.order = order_of(display);
   report.scattering_rad = display.angular_scattering_rad;
+  for (const auto& spacing : {report.from_centre, report.from_left, report.from_right}) {
+    if (!spacing) continue;
+    const double gap = spacing->max_rad / display.angular_scattering_rad;
+    report.gap_over_scattering = std::max(gap, report.gap_over_scattering.value_or(0));
+  }
   if (!report.from_centre) return report;
   report.gaps = gaps_between(directions, report.from_centre->median_rad);
   std::vector<ModuleCalibration> row;

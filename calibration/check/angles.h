@@ -31,6 +31,10 @@ struct AngularReport {
   // does not apply.
   double scattering_rad = 0;
   std::optional<double> scattering_over_rule;
+  // The largest of all angles between neighbours, from the centre and both borders, over the angular scattering: what
+  // the diffuser has to bridge. Halfway between such two emitters each has exp(-(1.11741 / 2 x this)^2) of its light
+  // straight ahead (design geometry, section 5). Absent where there are fewer than two directions.
+  std::optional<double> gap_over_scattering;
 };
 
 // `display` is valid.

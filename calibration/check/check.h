@@ -10,11 +10,19 @@
 
 namespace lfd {
 
-// Where a check looks: points evenly over every image and over the screen, and over the box of physical space.
+// An axis-aligned box of physical space, as a region of interest has one; edge lengths in metres, > 0.
+struct PhysicalBox {
+  Point3<Physical> centre;
+  glm::dvec3 size{1.0};
+};
+
+// Where a check looks: points evenly over every image and over the screen, and over a box of physical space, in which
+// the condition number is taken: `roi`, or else the screen and half_depth_m before and behind its surface.
 struct CheckSampling {
   int image_columns = 48, image_rows = 36;
   int screen_columns = 65, screen_rows = 49;
   int box_points = 9;  // along each axis
+  std::optional<PhysicalBox> roi = std::nullopt;
 };
 inline constexpr CheckSampling kThoroughSampling{};
 // Some 1600 evaluations of the map per module: 64 measured grids take about 0.15 s on one core.
@@ -30,7 +38,8 @@ struct MapNumbers {
   // Shares of the points on the screen at which the map, measured against the ideal one, mirrors, or squeezes one
   // direction 1000 times more than another.
   double mirrored = 0, near_singular = 0;
-  // Grid maps: share of cells that have folded, and of those that lack a corner (GridMap); 0 for other maps.
+  // Grid maps: share of cells that have folded anywhere in them, which bounds prove and not samples, and of those that
+  // lack a corner (GridMap); 0 for other maps.
   double folded = 0, incomplete = 0;
   // condition_number() of derivative_by_physical() over the box, where there is an image.
   double condition_median = 0, condition_99 = 0, condition_max = 0;
@@ -39,7 +48,7 @@ struct MapNumbers {
 
 struct CalibrationReport {
   CheckSampling sampling;
-  double half_depth_m = 0;  // of the box: the screen and so much before and behind its surface
+  double half_depth_m = 0;  // of the box around the screen
   MapNumbers all;
   std::vector<MapNumbers> modules;
   double coverage_any = 0;   // share of the screen lit by at least one module

@@ -66,13 +66,17 @@ void sample_screen(const DisplayCalibration& display, const ModuleCalibration& m
   }
 }
 
-void sample_box(const DisplayCalibration& display, const ModuleCalibration& module, double half_depth_m, int points,
-                ModuleSamples& samples) {
+void sample_box(const DisplayCalibration& display, const ModuleCalibration& module, double half_depth_m,
+                const CheckSampling& sampling, ModuleSamples& samples) {
+  const int points = sampling.box_points;
   const auto along = [points](int i) { return static_cast<double>(i) / (points - 1) - 0.5; };
   for (int i = 0; i < points * points * points; ++i) {
-    const ScreenPoint s{display.screen.width_m * along(i % points),
-                        display.screen.height_m * along(i / points % points)};
-    const auto p = point_before_screen(display.optics, s, 2 * half_depth_m * along(i / (points * points)));
+    const glm::dvec3 share(along(i % points), along(i / points % points), along(i / (points * points)));
+    const auto p =
+        sampling.roi
+            ? point_of<Physical>(to_glm(sampling.roi->centre) + share * sampling.roi->size)
+            : point_before_screen(display.optics, {display.screen.width_m * share.x, display.screen.height_m * share.y},
+                                  2 * half_depth_m * share.z);
     if (const auto condition = condition_at(display, module, p)) samples.conditions.push_back(*condition);
   }
 }
@@ -98,7 +102,7 @@ ModuleSamples sample_module(const DisplayCalibration& display, const ModuleCalib
   ModuleSamples samples;
   sample_image(display, module, sampling, samples);
   sample_screen(display, module, sampling, samples);
-  sample_box(display, module, half_depth_m, sampling.box_points, samples);
+  sample_box(display, module, half_depth_m, sampling, samples);
   if (const auto* grid = std::get_if<GridMap>(&module.map)) {
     samples.folded = grid->folded_share();
     samples.incomplete = 1 - grid->complete_share();

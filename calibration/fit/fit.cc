@@ -60,6 +60,12 @@ ResidualSummary summary_of(std::vector<double> distances) {
   return {quantile(0.5), quantile(0.99), distances.back()};
 }
 
+// Of the screen, 1/m; 0: planar.
+double curvature_of(const DisplayCalibration& display) {
+  const double radius = display.optics.screen_radius_m;
+  return radius == 0 ? 0 : 1 / radius;
+}
+
 struct FittedModule {
   ScreenMap map;
   std::vector<double> distances;  // of each observation, px
@@ -68,6 +74,8 @@ struct FittedModule {
   double least_scale = 0;
   ModuleFit fit;
 };
+
+bool is_warped(const FittedModule& module) { return module.fit.is_grid; }
 
 // The pinhole, or the grid of pinhole and residual field where that is better at points held out.
 FittedModule fit_map(const FittedPinhole& fitted, const ModuleObservations& points, ImageSize image,
@@ -118,6 +126,27 @@ std::vector<Outlier> judge(FittedModule& module, const PinholeFamily& family, do
   return outliers;
 }
 
+// All modules with one curvature.
+struct Solution {
+  PinholeFit pinholes;
+  Determined determined;
+  std::vector<FittedModule> modules;
+};
+
+Result<Solution> solve(std::span<const PinholeFamily> families, std::span<const ModuleObservations> lists,
+                       const DisplayCalibration& start, Curvature curvature, bool sigmas_are_known,
+                       bool residual_grids) {
+  const double start_curvature = curvature_of(start);
+  Solution solution;
+  LFD_TRY(solution.pinholes, fit_pinholes(families, lists, start_curvature, curvature, sigmas_are_known));
+  LFD_TRY(solution.determined, determined_by(families, lists, start_curvature, solution.pinholes));
+  for (std::size_t k = 0; k < families.size(); ++k) {
+    const FittedPinhole fitted{families[k], solution.pinholes.z[k], solution.pinholes.curvature};
+    solution.modules.push_back(fit_map(fitted, lists[k], start.image, residual_grids));
+  }
+  return solution;
+}
+
 }  // namespace
 
 Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observations& observations,
@@ -127,24 +156,26 @@ Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observa
   }
   LFD_TRY(const std::vector<ModuleObservations> lists, observations_by_module(start, observations));
   LFD_TRY(const std::vector<PinholeFamily> families, families_of(start, options));
-  const double radius = start.optics.screen_radius_m, start_curvature = radius == 0 ? 0 : 1 / radius;
-  const auto fit = fit_pinholes(families, lists, start_curvature, observations.has_sigma);
-  if (!fit) return fit.error().within(observations.source);
-  const auto determined = determined_by(families, lists, start_curvature, *fit);
-  if (!determined) return determined.error().within(observations.source);
+  const auto solved = [&](Curvature curvature) {
+    return solve(families, lists, start, curvature, observations.has_sigma, options.residual_grids);
+  };
+  auto solution = solved(Curvature::kFitted);
+  const bool is_curved = start.optics.screen_radius_m != 0;
+  const bool is_held = solution && is_curved && std::ranges::any_of(solution->modules, is_warped);
+  if (is_held) solution = solved(Curvature::kHeld);
+  if (!solution) return solution.error().within(observations.source);
 
-  FittedDisplay fitted{start, {}, {}, 0};
-  if (radius != 0) {
-    fitted.display.optics.screen_radius_m = 1 / fit->curvature;
-    fitted.radius_sd_m = determined->curvature_sd / std::abs(fit->curvature);
+  FittedDisplay fitted{start, {}, {}, 0, is_held};
+  if (is_curved && !is_held) {
+    fitted.display.optics.screen_radius_m = 1 / solution->pinholes.curvature;
+    fitted.radius_sd_m = solution->determined.curvature_sd / std::abs(solution->pinholes.curvature);
   }
   for (std::size_t k = 0; k < families.size(); ++k) {
-    FittedModule module =
-        fit_map({families[k], fit->z[k], fit->curvature}, lists[k], start.image, options.residual_grids);
-    const auto outliers = judge(module, families[k], start_curvature, lists[k], observations.has_sigma);
+    FittedModule& module = solution->modules[k];
+    const auto outliers = judge(module, families[k], curvature_of(start), lists[k], observations.has_sigma);
     fitted.outliers.insert(fitted.outliers.end(), outliers.begin(), outliers.end());
-    module.fit.held_by_start = determined->held_by_start[k];
-    const PinholeMap was = families[k].at(PinholeVector{}), is = families[k].at(fit->z[k]);
+    module.fit.held_by_start = solution->determined.held_by_start[k];
+    const PinholeMap was = families[k].at(PinholeVector{}), is = families[k].at(solution->pinholes.z[k]);
     Emitter& emitter = fitted.display.modules[k].emitter;
     emitter = emitter + (is.position - was.position);
     fitted.display.modules[k].map = std::move(module.map);

@@ -49,7 +49,7 @@ struct Prior {
 class Optimisation {
  public:
   Optimisation(std::span<const PinholeFamily> families, std::span<const ModuleObservations> modules,
-               double start_curvature, bool sigmas_are_known)
+               double start_curvature, Curvature curvature, bool sigmas_are_known)
       : families_(families),
         modules_(modules),
         start_curvature_(start_curvature),
@@ -58,7 +58,7 @@ class Optimisation {
     fit_.z.resize(families.size(), PinholeVector{});
     fit_.scale.resize(families.size(), 1);
     for (std::size_t k = 0; k < families.size(); ++k) add_module(k);
-    if (start_curvature == 0) {
+    if (start_curvature == 0 || curvature == Curvature::kHeld) {
       problem_.SetParameterBlockConstant(&fit_.curvature_change);
     } else {
       problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<Prior<1>, 1, 1>(new Prior<1>), nullptr,
@@ -141,9 +141,9 @@ class Optimisation {
 }  // namespace
 
 Result<PinholeFit> fit_pinholes(std::span<const PinholeFamily> families, std::span<const ModuleObservations> modules,
-                                double start_curvature, bool sigmas_are_known) {
+                                double start_curvature, Curvature curvature, bool sigmas_are_known) {
   LFD_CHECK(families.size() == modules.size(), "a family and observations for each module");
-  return Optimisation(families, modules, start_curvature, sigmas_are_known).run();
+  return Optimisation(families, modules, start_curvature, curvature, sigmas_are_known).run();
 }
 
 std::optional<glm::dvec2> pinhole_residual(const PinholeFamily& family, const PinholeVector& z, double curvature,

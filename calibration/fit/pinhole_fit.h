@@ -26,10 +26,13 @@ inline constexpr double kLossWidth = 3;      // of Cauchy's loss, in scaled sigm
 // The scale where sigmas are to be found from the observations themselves, px: as if nothing were measured better.
 inline constexpr double kLeastScale_px = 1e-7;
 
+// Whether the curvature is fitted with the pinholes, or stays the start's.
+enum class Curvature { kFitted, kHeld };
+
 // `sigmas_are_known`: scales are at least 1, more where pinholes cannot represent what was seen. A planar screen
 // (start_curvature 0) stays planar. Errors: a module whose start does not see an observation; no convergence.
 Result<PinholeFit> fit_pinholes(std::span<const PinholeFamily> families, std::span<const ModuleObservations> modules,
-                                double start_curvature, bool sigmas_are_known);
+                                double start_curvature, Curvature curvature, bool sigmas_are_known);
 
 // Where the fitted pinhole sees the observation's screen point, minus where it was seen, px. Absent behind it.
 std::optional<glm::dvec2> pinhole_residual(const PinholeFamily& family, const PinholeVector& z, double curvature,

@@ -9,6 +9,7 @@
 
 #include "calibration/limits.h"
 #include "calibration/maps/bicubic_patch.h"
+#include "calibration/maps/fold.h"
 
 namespace lfd {
 namespace {
@@ -107,7 +108,6 @@ struct GridMap::Prepared {
   GridNodes nodes;
   std::vector<Cell> cells;  // the complete ones
   double orientation = -1;  // sign of the Jacobian of (s, y) by (u, v) in most cells; v grows downward, y upward
-  std::size_t folded = 0;
   Box2 bounds;
   int side = 1;                           // buckets along each axis
   std::vector<std::uint32_t> first_cell;  // of each bucket, in `listed`; one more at the end
@@ -132,7 +132,6 @@ void GridMap::Prepared::find_cells() {
     }
   }
   orientation = 2 * negative >= cells.size() ? -1 : 1;
-  folded = orientation < 0 ? cells.size() - negative : negative;
 }
 
 void GridMap::Prepared::fill_buckets() {
@@ -192,8 +191,16 @@ double GridMap::complete_share() const {
   return static_cast<double>(prepared_->cells.size()) / all;
 }
 
+bool GridMap::has_folded(int column, int row) const {
+  return is_complete(nodes(), column, row) &&
+         !keeps_orientation(patch_of_cell(nodes(), column, row), prepared_->orientation);
+}
+
 double GridMap::folded_share() const {
-  return static_cast<double>(prepared_->folded) / static_cast<double>(prepared_->cells.size());
+  const auto& cells = prepared_->cells;
+  const auto folded =
+      std::ranges::count_if(cells, [this](const Prepared::Cell& cell) { return has_folded(cell.column, cell.row); });
+  return static_cast<double>(folded) / static_cast<double>(cells.size());
 }
 
 std::optional<ScreenPoint> screen_from_image(const GridMap& map, PixelPoint p) {

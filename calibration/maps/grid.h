@@ -44,7 +44,11 @@ class GridMap {
 
   // Share of the cells between nodes that have all four corners.
   double complete_share() const;
-  // Share of the complete cells in whose middle the map is mirrored against most others: it has folded there.
+  // Whether a complete cell has folded: somewhere in it the map is mirrored against most cells' middles, or all but
+  // flat; that no place of it is, is proven and not sampled (fold.h). Of the cell right of and below the node; false
+  // where it lacks a corner.
+  bool has_folded(int column, int row) const;
+  // Share of the complete cells that have folded. Looks at every cell.
   double folded_share() const;
 
   bool operator==(const GridMap& other) const { return nodes() == other.nodes(); }

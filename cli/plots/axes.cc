@@ -37,6 +37,17 @@ Box with_equal_scales(const Box& box, Range x, Range y) {
   return {box.x + (box.width - w) / 2, box.y, w, h};
 }
 
+double arrow_scale(double longest_px, double place_px) {
+  if (!(longest_px > 1e-6)) return 1;  // nothing but rounding
+  double scale = 1;
+  for (double decade = 1; decade <= 1e6; decade *= 10) {
+    for (const double step : {1.0, 2.0, 5.0}) {
+      if (decade * step * longest_px <= 1.5 * place_px) scale = decade * step;
+    }
+  }
+  return scale;
+}
+
 Place Axes::at(double x, double y) const {
   return {box_.x + (x - x_.from) / (x_.to - x_.from) * box_.width,
           box_.y + box_.height - (y - y_.from) / (y_.to - y_.from) * box_.height};

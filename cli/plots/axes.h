@@ -20,6 +20,10 @@ std::vector<double> ticks_in(Range range, int wanted);
 // both directions.
 Box with_equal_scales(const Box& box, Range x, Range y);
 
+// How many times their length arrows are to be drawn: 1, 2 or 5 times a power of ten, at least 1, so that the longest
+// spans about one and a half places.
+double arrow_scale(double longest_px, double place_px);
+
 struct Labels {
   std::string title, x, y;  // axes with their units
 };

@@ -58,7 +58,7 @@ void draw_mesh(Svg& svg, const Axes& axes, const GridNodes& nodes) {
   }
 }
 
-// Cells in whose middle the map has folded are filled, nodes beside a hole marked; answers how many were drawn.
+// Folded cells are filled, nodes beside a hole marked; answers how many were drawn.
 int draw_faults(Svg& svg, const Axes& axes, const GridMap& map) {
   const GridNodes& nodes = map.nodes();
   int marks = 0;
@@ -69,12 +69,10 @@ int draw_faults(Svg& svg, const Axes& axes, const GridMap& map) {
                                  std::pair{column, row + 1}}) {
         if (!is_hole(nodes, i, j)) corners.push_back(placed(axes, nodes.at(i, j)));
       }
-      const PixelPoint corner = nodes.place(column, row);
-      const PixelPoint middle{corner.x + nodes.step_u_px / 2, corner.y + nodes.step_v_px / 2};
       if (corners.size() < 4) {
         for (const Place p : corners) svg.circle(p, 2.2, {.fill = kHoleInk});
         ++marks;
-      } else if (!screen_from_image(map, middle)) {
+      } else if (map.has_folded(column, row)) {
         svg.polygon(corners, {.stroke = kFoldInk, .fill = kFoldInk});
         ++marks;
       }

@@ -54,18 +54,6 @@ std::vector<Warp> warps_of(const DisplayCalibration& display, int module) {
   return warps;
 }
 
-// 1, 2 or 5 times a power of ten, at least 1, so that the longest arrow spans about one and a half places.
-double arrow_scale(double longest_px, double place_px) {
-  if (!(longest_px > 1e-6)) return 1;  // nothing but rounding
-  double scale = 1;
-  for (double decade = 1; decade <= 1e6; decade *= 10) {
-    for (const double step : {1.0, 2.0, 5.0}) {
-      if (decade * step * longest_px <= 1.5 * place_px) scale = decade * step;
-    }
-  }
-  return scale;
-}
-
 // What becomes of a pixel.
 enum class Fate { kThereAndBack, kNoWayBack, kBesideScreen, kHole, kFold };
 

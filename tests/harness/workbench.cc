@@ -29,7 +29,7 @@ DisplayCalibration small_display() {
   display.optics.diffuser = Diffuser::kLinear;
   display.optics.observer_height_m = 0;
   display.optics.observer_distance_m = 2;
-  display.angular_scattering_rad = 0.1;
+  display.angular_scattering_rad = 0.4;
   for (int k = 0; k < 4; ++k) display.modules.push_back({Emitter{-0.6 + 0.4 * k, 0, -1}, IdealMap{}});
   return display;
 }

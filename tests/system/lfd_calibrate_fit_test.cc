@@ -69,6 +69,18 @@ TEST_F(LfdCalibrateFit, MakesACalibrationThatIsAccepted) {
   for (const auto& outlier : json["outliers"]) EXPECT_GT(outlier["residual_px"].get<double>(), 5);
 }
 
+TEST_F(LfdCalibrateFit, WritesPicturesOfTheResiduals) {
+  const std::string folder = path("plots");
+  const Answer answer =
+      calibrate({"fit", seen_, "--start", start_, "--out", path("fitted.textproto"), "--plot", folder});
+  EXPECT_TRUE(answer.exit.succeeded()) << answer.text;
+  for (const char* const name : {"residuals-module-000.svg", "residuals-module-001.svg"}) {
+    const auto picture = read_file(folder + "/" + name);
+    ASSERT_TRUE(picture) << name;
+    EXPECT_THAT(*picture, HasSubstr("residuals of the fit"));
+  }
+}
+
 TEST_F(LfdCalibrateFit, RefusesWithFileAndLine) {
   const auto refusal = [&](const std::string& observations, const std::string& start) {
     const Answer answer = calibrate({"fit", observations, "--start", start, "--out", path("none.textproto")});

@@ -107,7 +107,8 @@ TEST(LfdCalibrate, MakesMeasuredAndCurvedDisplaysThatPassTheCheck) {
     EXPECT_EQ(info.text.find("cylinder") != std::string::npos, is_curved) << info.text;
   }
   std::remove(file.c_str());
-  for (const char* wrong : {"--grid 33", "--grid 1x5", "--warp 2", "--observer-arc", "--radius 0", "--radius nan", "--grids pfm"})
+  for (const char* wrong :
+       {"--grid 33", "--grid 1x5", "--warp 2", "--observer-arc", "--radius 0", "--radius nan", "--grids pfm"})
     EXPECT_EQ(calibrate("make desk " + std::string(wrong)).exit_code, 2) << wrong;
   EXPECT_THAT(calibrate("make c80-conical --radius 2").text, HasSubstr("CONICAL on a curved screen"));
 }
@@ -151,6 +152,28 @@ TEST(LfdCalibrate, NamesEveryMissedLimitOnALineOfItsOwn) {
   EXPECT_THAT(answer.text, HasSubstr("\nmissed: coverage: 1 of the screen (module 0); at least 1.5 is accepted\n"));
 }
 
+TEST(LfdCalibrate, LimitsGapsDepthAndHoles) {
+  EXPECT_EQ(calibrate("check " + kDesk).exit_code, 0);
+  const Answer gap = calibrate("check " + kDesk + " --max-gap 0.5");
+  EXPECT_EQ(gap.exit_code, 1);
+  EXPECT_THAT(gap.text, HasSubstr("missed: angle between neighbouring emitters: "));
+  const Answer depth = calibrate("check " + kDesk + " --min-depth 10");
+  EXPECT_EQ(depth.exit_code, 1);
+  EXPECT_THAT(depth.text, HasSubstr("missed: depth: the spot has doubled "));
+  EXPECT_EQ(calibrate("check " + kDesk + " --max-holes -1").exit_code, 2);
+}
+
+TEST(LfdCalibrate, TakesTheConditionInTheRegionOfInterest) {
+  EXPECT_THAT(calibrate("check " + kDesk + " --roi 0,0,0,0.4,0.3,0.1").text, HasSubstr(", in the region of interest"));
+  const auto json = nlohmann::json::parse(calibrate("check " + kDesk + " --json --roi=-0.1,0,0,0.4,0.3,0.1").text);
+  EXPECT_EQ(json["roi"]["physical_centre"][0], -0.1);
+  EXPECT_EQ(json["roi"]["physical_size"][2], 0.1);
+  EXPECT_TRUE(json["half_depth_m"].is_null());
+  EXPECT_EQ(calibrate("check " + kDesk + " --roi 0,0,0,0.4,0.3,0").exit_code, 2);
+  EXPECT_EQ(calibrate("check " + kDesk + " --roi 0,0,0,nan,1,1").exit_code, 2);
+  EXPECT_EQ(calibrate("check " + kDesk + " --roi 0,0,0,1 --depth 1").exit_code, 2);
+}
+
 TEST(LfdCalibrate, TellsProgramsEverythingAsJson) {
   const Answer answer = calibrate("check " + kDesk + " --json --min-coverage 1.5 2>/dev/null; exit $?");
   EXPECT_EQ(answer.exit_code, 1);
@@ -170,6 +193,10 @@ TEST(LfdCalibrate, TellsProgramsEverythingAsJson) {
   }
   EXPECT_EQ(json["all"]["coverage"], 1.0);
   EXPECT_EQ(json["angles"]["order"], "left_to_right");
+  EXPECT_LT(json["angles"]["gap_over_scattering"], 0.7);
+  for (const char* const key : {"incomplete", "gap_over_scattering", "depth_least_m"}) {
+    EXPECT_TRUE(json["limits"].contains(key)) << key;
+  }
   EXPECT_EQ(json["depth"]["spots"][0]["distance_m"], 0.0);
 }
 

@@ -10,8 +10,8 @@
 #include <random>
 
 #include "base/log.h"
-#include "calibration/fit/simulate.h"
 #include "calibration/make.h"
+#include "tests/unit/fit_truths.h"
 
 namespace lfd {
 namespace {
@@ -19,71 +19,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kNoise_px = 0.1;
 constexpr int kModules = 3;
-
-// Few points for each module, so that the tests are short and the task is not too easy.
-SimulationOptions few_points() {
-  SimulationOptions options;
-  options.noise_px = kNoise_px;
-  options.outliers = 0;
-  options.missing = 0;
-  options.points_u = 20;
-  options.points_v = 15;
-  return options;
-}
-
-// Error of a fitted map in the image, px, over an even raster of held-out points (no point of the simulation is one).
-// Points of the image that the truth shows on the screen must be answered; the border within 3 px may be beside the
-// fitted screen or image by the error alone.
-struct MapError {
-  double root_mean_square_px = 0, quantile_99_px = 0, max_px = 0;
-};
-
-MapError map_error(const DisplayCalibration& truth, const DisplayCalibration& fitted) {
-  MapError error;
-  double squares = 0;
-  std::vector<double> distances;
-  for (std::size_t k = 0; k < truth.modules.size(); ++k) {
-    for (double v = 3; v < truth.image.height - 3; v += 6.1) {
-      for (double u = 3; u < truth.image.width - 3; u += 6.1) {
-        const auto s = screen_from_image(truth, truth.modules[k], {u, v});
-        if (!s) continue;
-        const auto p = image_from_screen(fitted, fitted.modules[k], *s);
-        EXPECT_TRUE(p) << "module " << k << " at " << u << " " << v;
-        if (!p) continue;
-        const double distance = std::hypot(p->x - u, p->y - v);
-        squares += distance * distance;
-        distances.push_back(distance);
-      }
-    }
-  }
-  std::ranges::sort(distances);
-  error.root_mean_square_px = std::sqrt(squares / static_cast<double>(distances.size()));
-  error.quantile_99_px = distances[distances.size() * 99 / 100];
-  error.max_px = distances.back();
-  return error;
-}
-
-// The bound, also for the point that is recovered worst.
-void expect_recovered(const DisplayCalibration& truth, const FittedDisplay& fitted) {
-  const MapError error = map_error(truth, fitted.display);
-  EXPECT_LE(error.max_px, 1.5 * kNoise_px);
-  // 15 parameters from 600 numbers: sqrt(15 / 600) of the noise along each axis, were all as well known.
-  EXPECT_LE(error.root_mean_square_px, 0.4 * kNoise_px);
-}
-
-std::vector<std::size_t> lines_of(const std::vector<Outlier>& outliers) {
-  std::vector<std::size_t> lines;
-  for (const Outlier& outlier : outliers) lines.push_back(outlier.line);
-  return lines;
-}
-
-std::vector<std::size_t> outlier_lines(const SimulatedObservations& simulated) {
-  std::vector<std::size_t> lines;
-  for (const std::size_t i : simulated.outliers) lines.push_back(simulated.observations.points[i].line);
-  return lines;
-}
 
 class FitOfPinholes : public testing::TestWithParam<const char*> {};
 
@@ -127,7 +63,7 @@ TEST(Fit, IsExactWithoutNoise) {
   const auto simulated = *simulate_observations(truth, options);
   const auto fitted = fit_display(start, simulated.observations);
   ASSERT_TRUE(fitted) << fitted.error().message();
-  EXPECT_LE(map_error(truth, fitted->display).max_px, 1e-6);  // the issue's; priors pull by about kLeastScale_px
+  EXPECT_LE(map_error(truth, fitted->display).max_px, 1e-6);  // ten times kLeastScale_px, by which priors pull
   EXPECT_EQ(lines_of(fitted->outliers), outlier_lines(simulated));
 }
 
@@ -169,12 +105,7 @@ TEST_P(FitOfGrids, RecoversWhatNoPinholeCanRepresent) {
   const auto simulated = *simulate_observations(truth, options);
   const auto fitted = fit_display(start, simulated.observations);
   ASSERT_TRUE(fitted) << fitted.error().message();
-  // A field of many parameters follows the few observations in a corner, and goes on from them to the border: there the
-  // bound holds for 99 points of 100, and the worst is as far off as single observations are.
-  const MapError error = map_error(truth, fitted->display);
-  EXPECT_LE(error.root_mean_square_px, 0.7 * kNoise_px);
-  EXPECT_LE(error.quantile_99_px, 1.5 * kNoise_px);
-  EXPECT_LE(error.max_px, 5 * kNoise_px);
+  expect_grids_recovered(truth, *fitted, simulated.observations);
   EXPECT_EQ(lines_of(fitted->outliers), outlier_lines(simulated));
   for (const ModuleFit& module : fitted->modules) {
     EXPECT_TRUE(module.is_grid);

@@ -10,6 +10,7 @@
 #include "calibration/make.h"
 #include "cli/plots/check_plots.h"
 #include "cli/plots/heat_map.h"
+#include "cli/plots/residual_plot.h"
 
 namespace lfd::plots {
 namespace {
@@ -111,6 +112,28 @@ TEST(CheckPlots, ScaleOfTheArrowsIsStated) {
   EXPECT_THAT(picture, HasSubstr("Arrows are drawn 5 x their length"));
   EXPECT_THAT(picture, HasSubstr("median 3, max 3 px"));
   EXPECT_THAT(warp(*make_display("desk", 1), 0), HasSubstr("Arrows are drawn 1 x their length"));
+}
+
+TEST(ResidualPlot, StatesItsScaleAndMarksOutliers) {
+  const DisplayCalibration display = *make_display("desk", 1);
+  std::vector<SeenPoint> points;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      const PixelPoint p{10.0 + 20 * i, 8.0 + 15 * j};
+      // Every pixel is seen 0.3 px left of where the map has its light.
+      points.push_back({{p.x - 0.3, p.y}, *screen_from_image(display, display.modules[0], p), false});
+    }
+  }
+  points[5].in_image.x += 20;
+  points[5].is_outlier = true;
+  points[6].on_screen = {9, 9};
+  const std::string picture = residuals(display, 0, points);
+  expect_well_formed(picture);
+  EXPECT_THAT(picture, HasSubstr("50 x their length"));  // 15 px of at most 27.7, one and a half times the spacing
+  EXPECT_THAT(picture, HasSubstr("144 observations, 1 of them outliers. Residuals of the others, px: "));
+  EXPECT_THAT(picture, HasSubstr("max 0.3"));
+  EXPECT_THAT(picture, HasSubstr("fill=\"none\" stroke=\"#d62728\""));
+  expect_well_formed(residuals(display, 0, {}));
 }
 
 TEST(CheckPlots, ShowTheWorstModule) {
