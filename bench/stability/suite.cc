@@ -29,8 +29,12 @@ StabilityCases stability_cases() {
   add_grid_cases(cases);
   add_distortion_cases(cases);
   add_field_cases(cases);
+  add_scene_field_cases(cases);
+  add_text_field_cases(cases);
   add_gpu_map_cases(cases);
   add_module_cases(cases);
+  add_end_cases(cases);
+  add_map_picture_cases(cases);
   add_picture_cases(cases);
   add_triangle_cases(cases);
   add_occlusion_cases(cases);
