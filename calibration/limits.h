@@ -1,5 +1,5 @@
-// How large and how small the numbers of a display may be: beyond these single precision on the GPU would draw
-// something wrong. Measured by bench/stability.
+// How large and how small the numbers of a display may be, for single precision on the GPU to draw it right. Pictures
+// at the ends of screen sides, observers, emitters and focal lengths are drawn by bench/stability; radii from 2 mm.
 #pragma once
 
 #include <cmath>
@@ -19,10 +19,10 @@ inline constexpr Limits kScreenRadius_m{1e-3, 1e12};
 inline constexpr Limits kObserverDistance_m{1e-3, 1e6};
 inline constexpr Limits kEmitterDistance_m{1e-6, 1e6};  // behind the screen
 inline constexpr Limits kPlace_m{0, 1e6};               // every other coordinate in physical space
-inline constexpr Limits kScattering_rad{1e-6, 6.3};
+inline constexpr Limits kScattering_rad{1e-6, 6.3};     // the virtual display's alone: a whole turn
 inline constexpr Limits kFocalLength_px{1e-3, 1e7};
-inline constexpr Limits kPlace_px{0, 1e7};  // of principal points and grids
-inline constexpr Limits kGridStep_px{1e-3, 1e7};
+inline constexpr Limits kPlace_px{0, 1e7};        // of principal points and grids: pixels are still told apart
+inline constexpr Limits kGridStep_px{1e-3, 1e7};  // likewise; grids are inverted in double
 inline constexpr Limits kDistortion{0, 1e6};
 
 // Regions of interest (calibration/spaces/roi.h).

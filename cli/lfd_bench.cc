@@ -111,6 +111,9 @@ struct StabilityArguments {
 };
 
 int bench_stability(const StabilityArguments& a) {
+  if (!a.out.empty()) {
+    if (const Status folder = make_folder(a.out); !folder) return fail(folder.error());
+  }
   const auto table = bench::run_stability(a.gpu);
   if (!table) return fail(table.error());
   if (!a.out.empty()) {
@@ -122,6 +125,7 @@ int bench_stability(const StabilityArguments& a) {
   }
   std::cout << (a.json ? bench::json_of(*table) : bench::text_of(*table));
   const int printed = end_of_output();
+  if (a.json) std::cerr << bench::verdict_of(*table) << "\n";
   return table->missed().empty() ? printed : kExitFailed;
 }
 

@@ -99,8 +99,9 @@ Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
 Status check_radius(const AoSettings& ao, const RegionOfInterest& roi) {
   const double radius_m = ao.radius_in_world_m(roi.diagonal_m());
   if (!ao.enabled || radius_m >= kLeastAoRadius * roi.diagonal_m()) return {};
-  return Error(fmt::format("ao: the radius of {:g} m is less than {:g} of the region of interest's diagonal, {:g} m",
-                           radius_m, kLeastAoRadius, roi.diagonal_m()));
+  return Error(
+      fmt::format("ao: {}: the radius of {:g} m is less than {:g} of the region of interest's diagonal, {:g} m",
+                  ao.radius_m > 0 ? "radius_m" : "radius_roi", radius_m, kLeastAoRadius, roi.diagonal_m()));
 }
 
 Result<RegionOfInterest> read_roi(const proto::RegionOfInterest& m) {

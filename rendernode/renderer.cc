@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "proto/scene_numbers.h"
 #include "proto/state.h"
 #include "rendernode/gl/memory.h"
 #include "rendernode/pack_images.h"
@@ -52,6 +53,7 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   LFD_TRY(const RenderSettings settings, read_settings(state.render()));
   LFD_TRY(const RegionOfInterest roi, read_roi(state.roi()));
   LFD_TRY_STATUS(check_radius(settings.ao, roi));
+  if (const Status numbers = check_numbers(state.scene()); !numbers) return numbers.error().within("scene");
   const bool first = !state_.has_value();
   const bool new_tables = first || settings.warp_level != settings_.warp_level;
   const bool new_rule = new_tables || settings.subdivision_px != settings_.subdivision_px ||

@@ -51,6 +51,7 @@ Truth compare(const HitImage& reference, std::span<const std::uint8_t> near_silh
       truth.worst = {static_cast<int>(i % reference.size.width), static_cast<int>(i / reference.size.width)};
     }
     errors.push_back(error);
+    truth.far_off += error > kFarOff;
   }
   truth.compared = errors.size();
   std::ranges::sort(errors);

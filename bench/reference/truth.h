@@ -11,6 +11,9 @@
 
 namespace lfd::reference {
 
+// An error, over the ROI diagonal, that no pixel should have.
+inline constexpr double kFarOff = 1e-3;
+
 // Errors are distances in the world over the diagonal of the region of interest. Percentiles are by nearest rank; all 0
 // where nothing was compared. A position that is not finite has the error infinity.
 struct Truth {
@@ -19,6 +22,7 @@ struct Truth {
   std::size_t compared = 0;           // of those: the others
   std::size_t only_in_reference = 0;  // pixels with a surface in only one, wherever they lie
   std::size_t only_in_rendered = 0;
+  std::size_t far_off = 0;            // of those: with an error above kFarOff
   double median = 0, percent_99 = 0, percent_999 = 0, max = 0;  // 999: the 99.9 % percentile
   PixelIndex worst;                                             // where max was found
   double mismatch_share = 0;  // pixels with a surface in only one, over those with one in any; 0 where none has

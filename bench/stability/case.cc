@@ -15,13 +15,14 @@ void Worst::take(double error) {
 }
 
 StabilityCase bounded(std::string group, std::string name, double bound, const std::string& reason,
-                      std::function<void(Worst&)> measure) {
-  return {std::move(group), std::move(name), fmt::format("at most {:.3g} {}", bound, reason),
-          [bound, measure = std::move(measure)](const gl::Context&) {
+                      std::function<void(Worst&)> measure, std::size_t least) {
+  const std::string counted = least > 1 ? fmt::format("; {} at least", least) : "";
+  return {std::move(group), std::move(name), fmt::format("at most {:.3g} {}{}", bound, reason, counted),
+          [bound, least, measure = std::move(measure)](const gl::Context&) {
             Worst worst;
             measure(worst);
             return Outcome{fmt::format("{:.2g} at worst of {}", worst.error(), worst.count()), worst.error(),
-                           worst.count() > 0 && worst.error() <= bound};
+                           worst.count() >= least && worst.error() <= bound};
           }};
 }
 

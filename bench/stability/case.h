@@ -38,10 +38,10 @@ class Worst {
   std::size_t count_ = 0;
 };
 
-// Passes where at least one error was measured and none is above `bound`. reason: unit of the errors and why the bound
-// is what it is.
+// Passes where at least `least` errors were measured and none is above `bound`. reason: unit of the errors and why the
+// bound is what it is.
 StabilityCase bounded(std::string group, std::string name, double bound, const std::string& reason,
-                      std::function<void(Worst&)> measure);
+                      std::function<void(Worst&)> measure, std::size_t least = 1);
 
 // Passes where the result is an error whose message has `words` in it.
 StabilityCase refused(std::string group, std::string name, const std::string& words, std::function<Status()> attempt);

@@ -8,47 +8,30 @@
 #include "bench/common/frame_picture.h"
 #include "bench/reference/scene_maker.h"
 #include "bench/reference/silhouette.h"
+#include "bench/stability/frame_fault.h"
 #include "rendernode/renderer.h"
 
 namespace lfd::bench {
 namespace {
 
+void add_light(proto::Scene& scene, proto::Light::Kind kind, float level) {
+  proto::Light& light = *scene.add_light();
+  light.set_kind(kind);
+  for (int channel = 0; channel < 3; ++channel) light.add_color(level);
+}
+
 proto::State state_of(const Drawing& drawing) {
   proto::State state;
   state.set_sequence(1);
   *state.mutable_scene() = drawing.data.scene;
+  add_light(*state.mutable_scene(), proto::Light::AMBIENT, 0.3F);
+  add_light(*state.mutable_scene(), proto::Light::HEAD, 0.7F);
   *state.mutable_roi() = write_roi(drawing.roi);
   *state.mutable_render() = drawing.settings;
   return state;
 }
 
-std::string fault_of(const FrameResult& frame) {
-  for (const ModuleImage& image : frame.images) {
-    if (image.kind == proto::COLOR) continue;  // bytes
-    for (const float value : picture_of(image).rgba) {
-      if (!std::isfinite(value)) return proto::BufferKind_Name(image.kind) + " has a number that is not finite";
-    }
-  }
-  return "";
-}
-
-void read_occlusion(const FrameResult& frame, Drawn& drawn) {
-  double sum = 0, count = 0;
-  for (const ModuleImage& image : frame.images) {
-    if (image.kind != proto::AO) continue;
-    const std::vector<float> rgba = picture_of(image).rgba;
-    for (std::size_t i = 0; i < rgba.size(); i += 4) {
-      if (rgba[i + 3] == 0) continue;
-      sum += rgba[i];
-      ++count;
-      drawn.largest_ao = std::max(drawn.largest_ao, static_cast<double>(rgba[i]));
-    }
-  }
-  drawn.mean_ao = count > 0 ? sum / count : 0;
-}
-
-Result<reference::Truth> truth_of(const Drawing& drawing, const FrameResult& frame) {
-  LFD_TRY(const RenderSettings settings, read_settings(drawing.settings));
+Result<reference::Truth> truth_of(const Drawing& drawing, const RenderSettings& settings, const FrameResult& frame) {
   LFD_TRY(const reference::WorldScene scene, reference::world_scene(drawing.seen.value_or(drawing.data), drawing.roi));
   const reference::Intersector intersector(scene);
   const DepthLimits limits = depth_limits(drawing.display, settings);
@@ -65,35 +48,36 @@ Result<Drawn> draw(const gl::Context& context, const Drawing& drawing) {
   LFD_TRY_STATUS(validate(drawing.display));
   const int errors_before = gl::Context::error_count();
   Renderer renderer(context, drawing.display, {0});
-  LFD_TRY_STATUS(renderer.set_state(state_of(drawing), drawing.data.assets));
+  const proto::State state = state_of(drawing);
+  LFD_TRY_STATUS(renderer.set_state(state, drawing.data.assets));
   BufferSet buffers;
   for (const auto kind : {proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}) buffers.bits |= 1U << kind;
   LFD_TRY_STATUS(renderer.draw({.buffers = buffers}));
-  const FrameResult frame = renderer.collect();
   Drawn drawn;
-  LFD_TRY(drawn.truth, truth_of(drawing, frame));
-  drawn.fault = fault_of(frame);
-  read_occlusion(frame, drawn);
+  drawn.frame = renderer.collect();
+  LFD_TRY(const RenderSettings settings, read_settings(drawing.settings));
+  LFD_TRY(drawn.truth, truth_of(drawing, settings, drawn.frame));
+  drawn.color = compare_colors(drawing.display, state.scene(), drawing.roi, settings, drawn.frame);
+  drawn.fault = fault_of(drawn.frame);
   if (gl::Context::error_count() != errors_before) drawn.fault += "GL reported an error";
   return drawn;
 }
 
 StabilityCase drawn_true(std::string group, std::string name, std::function<Drawing()> make,
-                         const reference::TruthBounds& bounds) {
-  const std::string expected =
-      fmt::format("of the ROI diagonal: median {:g}, 99 % {:g}, max {:g}; coverage differs by {:g}; all finite",
-                  bounds.median, bounds.percent_99, bounds.max, bounds.mismatch_share);
-  return {std::move(group), std::move(name), expected,
+                         const PictureBounds& bounds) {
+  return {std::move(group), std::move(name), text_of(bounds),
           [make = std::move(make), bounds](const gl::Context& context) -> Outcome {
             const auto drawn = draw(context, make());
             if (!drawn) return {"error: " + drawn.error().message(), 0, false};
             const reference::Truth& truth = drawn->truth;
-            std::string got = fmt::format("{:.1e}, {:.1e}, {:.1e} on {} pixels; {:.2g}", truth.median, truth.percent_99,
-                                          truth.max, truth.compared, truth.mismatch_share);
-            if (!drawn->fault.empty()) got += "; " + drawn->fault;
-            const auto broken = reference::broken_bounds(truth, bounds);
-            for (const std::string& bound : broken) got += "; " + bound;
-            return {got, truth.max, drawn->fault.empty() && broken.empty()};
+            std::string got =
+                fmt::format("{:.1e}, {:.1e}, {:.1e} on {} pixels; {:.2g}; {}", truth.median, truth.percent_999,
+                            truth.max, truth.compared, truth.mismatch_share, drawn->color.worst);
+            std::vector<std::string> broken = broken_bounds(truth, bounds);
+            if (!drawn->fault.empty()) broken.push_back(drawn->fault);
+            if (drawn->color.worst > kColorTolerance) broken.push_back(drawn->color.where);
+            for (const std::string& one : broken) got += "; " + one;
+            return {got, truth.max, broken.empty()};
           }};
 }
 
@@ -121,7 +105,7 @@ RegionOfInterest small_roi() {
 
 SceneData sphere_in_box(const RegionOfInterest& roi) {
   reference::SceneMaker maker;
-  const auto plain = maker.add_material({});
+  const auto plain = maker.add_material({.base_color = {0.8F, 0.5F, 0.2F, 1}});
   const glm::dmat3 axes = glm::mat3_cast(roi.world_orientation);
   std::array<double, 12> placement{};
   for (std::size_t row = 0; row < 3; ++row) {

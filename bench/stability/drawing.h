@@ -7,6 +7,8 @@
 
 #include "bench/reference/truth.h"
 #include "bench/stability/case.h"
+#include "bench/stability/color_truth.h"
+#include "bench/stability/picture_bounds.h"
 #include "calibration/display.h"
 #include "calibration/spaces/roi.h"
 #include "proto/scene_data.h"
@@ -26,18 +28,21 @@ struct Drawing {
 };
 
 struct Drawn {
-  reference::Truth truth;              // of the positions, over the ROI diagonal
-  double mean_ao = 0, largest_ao = 0;  // over pixels with a surface
-  std::string fault;                   // empty, or the buffer that has a number that is not finite, or GL's complaint
+  FrameResult frame;
+  reference::Truth truth;  // of the positions, over the ROI diagonal
+  ColorTruth color;
+  std::string fault;  // empty, or the buffer that has a number that is not finite, or GL's complaint
 };
 
-// Draws colour, position, normal, ambient occlusion and depth. Errors: those of the renderer, by name.
+// Draws colour, position, normal, ambient occlusion and depth, in the light that the controller gives a scene without
+// lights. Errors: those of the renderer, by name.
 Result<Drawn> draw(const gl::Context& context, const Drawing& drawing);
 
-// Passes where the picture is within the bounds, and where no buffer has a number that is not finite. `make` makes the
+// Passes where positions are within the bounds, colours within kColorTolerance, and no buffer has a number that is not
+// finite. `make` makes the
 // drawing when the case runs.
 StabilityCase drawn_true(std::string group, std::string name, std::function<Drawing()> make,
-                         const reference::TruthBounds& bounds = {});
+                         const PictureBounds& bounds = {});
 
 // Passes where the renderer refuses with these words.
 StabilityCase drawing_refused(std::string group, std::string name, const std::string& words,
@@ -49,7 +54,8 @@ DisplayCalibration small_display(Diffuser diffuser = Diffuser::kLinear);
 // A box of 0.36 x 0.27 x 0.3 m about the screen's centre, in the world and in physical space.
 RegionOfInterest small_roi();
 
-// A sphere before a wall on a floor, made in the unit cube about the origin and placed so that it fills the world box.
+// A sphere before a wall on a floor, of one coloured material, made in the unit cube about the origin and placed so
+// that it fills the world box.
 SceneData sphere_in_box(const RegionOfInterest& roi);
 
 }  // namespace lfd::bench

@@ -1,17 +1,15 @@
 // Bad numbers in every field of calibrations and deployments: refused by name, or harmless.
 #include <stdlib.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <set>
 
 #include "base/file.h"
-#include "base/log.h"
 #include "bench/stability/groups.h"
 #include "bench/stability/harmless.h"
 #include "bench/stability/message_fields.h"
 #include "bench/stability/spoilt_displays.h"
+#include "bench/stability/tally.h"
 #include "proto/calibration_file.h"
 #include "proto/deployment_file.h"
 #include "proto/text_file.h"
@@ -19,41 +17,9 @@
 namespace lfd::bench {
 namespace {
 
-constexpr const char* kExpected = "each value refused with the field's name, or harmless";
-
-// What became of the bad values of one field.
-class Tally {
- public:
-  explicit Tally(const NumberField& field) : field_(field) {}
-
-  void refused(const std::string& value, const std::string& message) {
-    ++refused_;
-    const bool is_named =
-        std::ranges::any_of(field_.words, [&](const std::string& word) { return message.find(word) != message.npos; });
-    if (!is_named) fault(value, "error without the field's name: " + message);
-  }
-  void accepted(const std::string& value, const std::string& harm) {
-    ++accepted_;
-    if (!harm.empty()) fault(value, harm);
-  }
-  Outcome outcome() const {
-    if (!fault_.empty()) return {fault_, 0, false};
-    return {fmt::format("{} refused, {} harmless", refused_, accepted_), 0, true};
-  }
-
- private:
-  void fault(const std::string& value, const std::string& what) {
-    if (fault_.empty()) fault_ = fmt::format("{}: {}", value, what);
-  }
-
-  const NumberField& field_;
-  int refused_ = 0, accepted_ = 0;
-  std::string fault_;
-};
-
 StabilityCase calibration_case(const std::string& kind, const NumberField& field) {
-  return {"fields of calibrations", kind + ": " + field.road, kExpected, [field](const gl::Context&) {
-            Tally tally(field);
+  return {"fields of calibrations", kind + ": " + field.road, kEachRefusedOrHarmless, [field](const gl::Context&) {
+            Tally tally(field.words);
             for (const auto& [value, message] : field.spoilt) {
               const auto display = read_calibration(dynamic_cast<const proto::DisplayCalibration&>(*message));
               display ? tally.accepted(value, harm_of(*display)) : tally.refused(value, display.error().message());
@@ -106,17 +72,21 @@ struct Folder {
 };
 
 StabilityCase deployment_case(const NumberField& field) {
-  return {"fields of deployments", field.road, kExpected, [field](const gl::Context&) {
+  return {"fields of deployments", field.road, kEachRefusedOrHarmless, [field](const gl::Context&) {
             const Folder folder;
-            Tally tally(field);
+            Tally tally(field.words);
             const Status saved = save_calibration(folder.path / "display.textproto", plain_display());
             if (!saved) return Outcome{saved.error().message(), 0, false};
             for (const auto& [value, message] : field.spoilt) {
               const Status written = write_file(folder.path / "deployment.textproto", print_text(*message));
               if (!written) return Outcome{written.error().message(), 0, false};
               const auto deployment = load_deployment(folder.path / "deployment.textproto");
-              deployment ? tally.accepted(value, harm_of(*deployment))
-                         : tally.refused(value, deployment.error().message());
+              if (!deployment) {
+                tally.refused(value, deployment.error().message());
+                continue;
+              }
+              const auto harm = harm_of(*deployment);
+              harm ? tally.accepted(value, *harm) : tally.refused(value, harm.error().message());
             }
             return tally.outcome();
           }};
@@ -125,10 +95,13 @@ StabilityCase deployment_case(const NumberField& field) {
 }  // namespace
 
 void add_field_cases(StabilityCases& cases) {
+  // A number of the first module, of the optics or of the screen means something else on every kind of display; further
+  // modules are read like the first.
   std::set<std::string> seen;
   for (const auto& [kind, display] : spoilable_displays()) {
     for (const NumberField& field : number_fields(write_calibration(display))) {
-      if (seen.insert(field.road).second) cases.push_back(calibration_case(kind, field));
+      const bool is_again = !seen.insert(field.road).second && field.road.starts_with("module 1");
+      if (!is_again) cases.push_back(calibration_case(kind, field));
     }
   }
   for (const NumberField& field : number_fields(whole_deployment())) cases.push_back(deployment_case(field));

@@ -17,10 +17,18 @@ void add_grid_cases(StabilityCases& cases);
 void add_distortion_cases(StabilityCases& cases);
 // Bad numbers in every field of calibrations, regions of interest, settings and deployments.
 void add_field_cases(StabilityCases& cases);
+// Bad numbers in scenes and in requests of control clients.
+void add_scene_field_cases(StabilityCases& cases);
+// Bad numbers in observations and MPCDI archives.
+void add_text_field_cases(StabilityCases& cases);
 // Float on the GPU against double: the map's functions near their limits.
 void add_gpu_map_cases(StabilityCases& cases);
 // Emitters near the screen, far from it, and at and below the observer's height, as pictures.
 void add_module_cases(StabilityCases& cases);
+// Pictures at the ends of the limits of calibration/limits.h.
+void add_end_cases(StabilityCases& cases);
+// Pictures through measured grids with folds and holes, and through lenses that turn back.
+void add_map_picture_cases(StabilityCases& cases);
 // Whole pictures of far, flat and tiny regions of interest.
 void add_picture_cases(StabilityCases& cases);
 // Triangles without area, too small, too large, and through every limit.

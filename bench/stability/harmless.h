@@ -12,7 +12,11 @@ namespace lfd::bench {
 // limits in z that are not in order. `display` has been validated.
 std::string harm_of(const DisplayCalibration& display);
 
-// The same of the region of interest and the settings of a deployment that has been read.
-std::string harm_of(const Deployment& deployment);
+// The same of a region of interest and settings, each valid, on this display.
+std::string harm_of(const DisplayCalibration& display, const RegionOfInterest& roi, const RenderSettings& settings);
+
+// The same of the region of interest and the settings of a deployment that has been read. Errors: those with which the
+// controller refuses the region of interest once it knows a scene of 2 m, or the settings with it.
+Result<std::string> harm_of(const Deployment& deployment);
 
 }  // namespace lfd::bench

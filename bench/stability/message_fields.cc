@@ -27,6 +27,8 @@ constexpr std::array kBadNumbers{kNaN,   kInfinity, -kInfinity, DBL_MAX, -DBL_MA
                                  -1e-40, DBL_MIN,   -DBL_MIN,   5e-324,  -5e-324,  0.0,   -0.0,   -1.0};
 constexpr std::array kBadIntegers{std::numeric_limits<int>::min(), -1, 0, 1, 1000000, std::numeric_limits<int>::max()};
 
+constexpr int kMostElements = 16;  // of a repeated field: of longer ones three stand for all
+
 struct Step {
   const FieldDescriptor* field;
   int index;  // of a repeated field, else -1
@@ -115,7 +117,10 @@ std::set<int> indices_of(const Message& parent, const FieldDescriptor* field) {
   if (!field->is_repeated()) return {-1};
   const int count = parent.GetReflection()->FieldSize(parent, field);
   if (count == 0) return {};
-  return {0, count / 2, count - 1};
+  if (count > kMostElements) return {0, count / 2, count - 1};
+  std::set<int> indices;
+  for (int i = 0; i < count; ++i) indices.insert(i);
+  return indices;
 }
 
 void walk(const Message& message, const Message& at, Road& road, std::vector<NumberField>& found) {

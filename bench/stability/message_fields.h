@@ -21,8 +21,8 @@ struct NumberField {
   std::vector<Spoilt> spoilt;
 };
 
-// All fields that are numbers or enumerators, in messages that `message` has; of repeated ones the first, the middle
-// and the last.
+// All fields that are numbers or enumerators, in messages that `message` has; of repeated ones with more than 16
+// elements the first, the middle and the last.
 std::vector<NumberField> number_fields(const google::protobuf::Message& message);
 
 }  // namespace lfd::bench

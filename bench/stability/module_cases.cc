@@ -1,5 +1,7 @@
 // Emitters near the screen and far from it, at and below the observer's height, and modules of one pixel or 8192, as
 // pictures.
+#include <cmath>
+
 #include "base/log.h"
 #include "bench/stability/drawing.h"
 #include "bench/stability/groups.h"
@@ -45,13 +47,53 @@ void add_heights(StabilityCases& cases) {
   }
 }
 
+// Screen, observers, emitter and what they show, so many times larger.
+Drawing scaled(DisplayCalibration display, double scale, double depth_m = 0.3) {
+  display.screen = {scale * display.screen.width_m, scale * display.screen.height_m};
+  display.optics.observer_distance_m *= scale;
+  display.optics.observer_height_m *= scale;
+  display.optics.screen_radius_m *= scale;
+  for (double Emitter::*part : {&Emitter::x, &Emitter::y, &Emitter::z}) display.modules[0].emitter.*part *= scale;
+  Drawing drawing = with_display(display, depth_m);
+  drawing.roi.physical_size *= scale;
+  return drawing;
+}
+
+DisplayCalibration bent(double radius_m, bool observer_arc) {
+  DisplayCalibration display = small_display();
+  display.optics.screen_radius_m = radius_m;
+  display.optics.observer_arc = observer_arc;
+  return display;
+}
+
 void add_radii(StabilityCases& cases) {
-  for (const double radius : {0.2, 1.0, 1e2, 1e4, 1e6, 1e9, -0.5, -1e2, -1e4, -1e6, -1e9}) {
-    cases.push_back(drawn_true(kGroup, fmt::format("screen radius {:g} m", radius), [radius] {
-      DisplayCalibration display = small_display();
-      display.optics.screen_radius_m = radius;
-      return with_display(display, 0.2);
-    }));
+  for (const double radius : {0.2, 1.0, 1e2, 1e4, 1e6, 1e9, 1e12, -0.5, -1e2, -1e4, -1e6, -1e9, -1e12}) {
+    cases.push_back(drawn_true(kGroup, fmt::format("screen radius {:g} m", radius),
+                               [radius] { return with_display(bent(radius, false), 0.2); }));
+  }
+  // The whole display shrinks with its screen: its sides are 0.8 and 0.6 of the radius.
+  PictureBounds steep;
+  steep.most_far_off = 2;
+  steep.why = "where two surfaces cross, interpolated depth says which is seen, on so curved a screen to 0.1 px";
+  for (const double radius : {0.1, 1e-2, 2e-3, -0.1, -1e-2, -2e-3}) {
+    cases.push_back(drawn_true(
+        kGroup, fmt::format("screen radius {:g} m, everything as small", radius),
+        [radius] { return scaled(bent(std::copysign(0.5, radius), false), std::abs(radius) / 0.5, 0.2); },
+        radius > 0 ? steep : PictureBounds{}));
+  }
+  for (const double radius : {0.5, 2.0, 1e4, 1e9, -2.0, -1e4, -1e9}) {
+    cases.push_back(drawn_true(kGroup, fmt::format("screen radius {:g} m, observers on the arc", radius),
+                               [radius] { return with_display(bent(radius, true), 0.2); }));
+  }
+  for (const double radius : {1e-2, 0.1}) {
+    cases.push_back(drawn_true(kGroup,
+                               fmt::format("screen radius {:g} m, everything as small, observers on the arc", radius),
+                               [radius] { return scaled(bent(0.5, true), radius / 0.5, 0.2); }));
+  }
+  for (const double radius : {-1e-2, -0.1, -0.5}) {
+    cases.push_back(drawing_refused(kGroup,
+                                    fmt::format("screen radius {:g} m, observers on the arc behind its axis", radius),
+                                    "observer_arc", [radius] { return with_display(bent(radius, true), 0.2); }));
   }
 }
 
@@ -61,8 +103,10 @@ void add_sizes(StabilityCases& cases) {
     display.image = size;
     return with_display(display);
   };
-  // Near a silhouette nothing is compared; of so few pixels most are.
-  const reference::TruthBounds few{1e-5, 1e-4, 1e-3, 3e-3, 0};
+  PictureBounds few;
+  few.least_compared_share = 0;
+  few.least_compared = 0;
+  few.why = "almost all pixels are near a silhouette";
   cases.push_back(drawn_true(
       kGroup, "1 x 1 pixels",
       [sized] {
@@ -75,8 +119,22 @@ void add_sizes(StabilityCases& cases) {
         return sized({1, 64});
       },
       few));
-  cases.push_back(drawn_true(kGroup, "8192 x 4 pixels", [sized] { return sized({8192, 4}); }));
-  cases.push_back(drawn_true(kGroup, "4 x 8192 pixels", [sized] { return sized({4, 8192}); }));
+  // A pixel is 1500 times as long as wide: corners, rounded to 1/256 of it, move by six of its widths.
+  PictureBounds flat;
+  flat.mismatch_share = 2e-3;
+  flat.why = "corners are rounded to 1/256 of a pixel that is 1500 times as long as wide";
+  cases.push_back(drawn_true(
+      kGroup, "8192 x 4 pixels",
+      [sized] {
+        return sized({8192, 4});
+      },
+      flat));
+  cases.push_back(drawn_true(
+      kGroup, "4 x 8192 pixels",
+      [sized] {
+        return sized({4, 8192});
+      },
+      flat));
 }
 
 void add_homographies(StabilityCases& cases) {
@@ -92,16 +150,8 @@ void add_homographies(StabilityCases& cases) {
 
 void add_screens(StabilityCases& cases) {
   for (const double scale : {1e-2, 1e2, 2e3}) {
-    cases.push_back(drawn_true(kGroup, fmt::format("a display {:g} times as large", scale), [scale] {
-      DisplayCalibration display = small_display();
-      display.screen = {scale * 0.4, scale * 0.3};
-      display.optics.observer_distance_m *= scale;
-      display.optics.observer_height_m *= scale;
-      display.modules[0].emitter = {scale * -0.1, scale * -0.08, scale * -0.6};
-      Drawing drawing = with_display(display);
-      drawing.roi.physical_size *= scale;
-      return drawing;
-    }));
+    cases.push_back(drawn_true(kGroup, fmt::format("a display {:g} times as large", scale),
+                               [scale] { return scaled(small_display(), scale); }));
   }
   cases.push_back(drawing_refused(kGroup, "a screen of a micrometre", "screen: width_m", [] {
     DisplayCalibration display = small_display();

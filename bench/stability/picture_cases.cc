@@ -2,6 +2,7 @@
 #include "base/log.h"
 #include "bench/stability/drawing.h"
 #include "bench/stability/groups.h"
+#include "bench/stability/spoilt_displays.h"
 
 namespace lfd::bench {
 namespace {
@@ -46,6 +47,21 @@ void add_picture_cases(StabilityCases& cases) {
     roi.physical_size.z /= ratio;
     cases.push_back(drawing_refused(kGroup, fmt::format("{:g} times shorter along z in physical space alone", ratio),
                                     "physical_size: one axis is magnified", [roi] { return drawing_of(roi); }));
+  }
+  // Other pictures are lit, in sRGB.
+  for (const bool unlit : {false, true}) {
+    for (const bool with_color : {false, true}) {
+      if (!unlit && !with_color) continue;
+      cases.push_back(drawn_true(
+          kGroup, fmt::format("{}, {}", unlit ? "unlit" : "lit", with_color ? "with a colour calibration" : "in sRGB"),
+          [=] {
+            Drawing drawing = drawing_of(small_roi());
+            if (with_color) drawing.display.modules[0].color = measured_color();
+            drawing.settings.set_unlit(unlit);
+            drawing.settings.mutable_background()->set_g(0.25);
+            return drawing;
+          }));
+    }
   }
   for (const double scale : {1e-8, 1e-4, 1e4, 1e11}) {
     RegionOfInterest roi = small_roi();

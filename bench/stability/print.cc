@@ -26,11 +26,15 @@ std::string text_of(const StabilityTable& table) {
     text += fmt::format("| {} | {} | {} | {:.2g} | {} |\n", cell(row.name), cell(row.expected), cell(row.outcome.got),
                         row.outcome.worst, row.outcome.passed ? "ok" : "MISSED");
   }
+  return text + "\n" + verdict_of(table) + "\n";
+}
+
+std::string verdict_of(const StabilityTable& table) {
   const std::vector<std::string> missed = table.missed();
-  if (missed.empty()) return text + fmt::format("\nall {} cases came out as stated\n", table.rows.size());
+  if (missed.empty()) return fmt::format("all {} cases came out as stated", table.rows.size());
   std::string names;
   for (const std::string& name : missed) names += (names.empty() ? "" : "; ") + name;
-  return text + fmt::format("\n{} of {} cases missed: {}\n", missed.size(), table.rows.size(), names);
+  return fmt::format("{} of {} cases missed: {}", missed.size(), table.rows.size(), names);
 }
 
 std::string csv_of(const StabilityTable& table) {

@@ -22,6 +22,15 @@ DisplayCalibration plain_display() {
   return display;
 }
 
+ColorCalibration measured_color() {
+  ColorCalibration color;
+  color.gain = {2, 2, {{0.8, 0.9, 1}, {1, 0.9, 0.8}, {0.7, 0.7, 0.7}, {1, 1, 1}}};
+  color.black_level = {0.01, 0.02, 0.03};
+  color.device_from_display = {{0.9, 0.05, 0.02}, {0.04, 0.95, 0.03}, {0.03, 0.02, 0.97}};
+  color.curve = {GammaCurve{2.2}, SrgbCurve{}, TableCurve{{0, 0.3, 0.6, 1}}};
+  return color;
+}
+
 std::vector<NamedDisplay> spoilable_displays() {
   const DisplayCalibration ideal = plain_display();
   DisplayCalibration homography = ideal;
@@ -32,7 +41,10 @@ std::vector<NamedDisplay> spoilable_displays() {
     h[0].y = h[1].x = 0.5;
     module.map = HomographyMap{h};
   }
+  DisplayCalibration color = ideal;
+  color.modules[0].color = measured_color();
   return {{"ideal", ideal},
+          {"colour", color},
           {"homography", homography},
           {"pinhole", perturbed(ideal, 1)},
           {"grid", unwrapped(measured(perturbed(ideal, 2), 5, 4, 0.2, 3))},

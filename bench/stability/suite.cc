@@ -1,12 +1,25 @@
 // Listing and running the cases.
 #include "bench/stability/suite.h"
 
+#include <algorithm>
+#include <map>
+
 #include "base/log.h"
 #include "base/version.h"
 #include "bench/stability/groups.h"
 #include "rendernode/gl/context.h"
 
 namespace lfd::bench {
+
+namespace {
+
+void gather_groups(StabilityCases& cases) {
+  std::map<std::string, std::size_t> place;
+  for (const StabilityCase& one : cases) place.emplace(one.group, place.size());
+  std::ranges::stable_sort(cases, {}, [&](const StabilityCase& one) { return place.at(one.group); });
+}
+
+}  // namespace
 
 StabilityCases stability_cases() {
   StabilityCases cases;
@@ -16,11 +29,16 @@ StabilityCases stability_cases() {
   add_grid_cases(cases);
   add_distortion_cases(cases);
   add_field_cases(cases);
+  add_scene_field_cases(cases);
+  add_text_field_cases(cases);
   add_gpu_map_cases(cases);
   add_module_cases(cases);
+  add_end_cases(cases);
+  add_map_picture_cases(cases);
   add_picture_cases(cases);
   add_triangle_cases(cases);
   add_occlusion_cases(cases);
+  gather_groups(cases);
   return cases;
 }
 

@@ -9,7 +9,7 @@
 
 namespace lfd::bench {
 
-// All cases, in the order of the table.
+// All cases, in the order of the table: those of one group lie together, groups in the order of their first case.
 StabilityCases stability_cases();
 
 struct StabilityRow {
@@ -30,6 +30,10 @@ struct StabilityTable {
 // first that works. Errors: no context.
 Result<StabilityTable> run_stability(int gpu);
 
+// One line: that all cases came out, or which did not.
+std::string verdict_of(const StabilityTable& table);
+
+// The table; its last line is the verdict.
 std::string text_of(const StabilityTable& table);
 std::string csv_of(const StabilityTable& table);
 std::string json_of(const StabilityTable& table);

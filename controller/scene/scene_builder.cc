@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "controller/scene/limits.h"
 #include "controller/scene/mesh_tools.h"
+#include "proto/scene_numbers.h"
 
 namespace lfd::scene {
 namespace {
@@ -125,6 +126,7 @@ Status SceneBuilder::add_bounds() {
 
 Result<SceneData> SceneBuilder::finish() && {
   if (data_.scene.instance_size() == 0) return Error("there is nothing to draw: the scene has no triangles");
+  LFD_TRY_STATUS(check_numbers(data_.scene));
   LFD_TRY_STATUS(add_bounds());
   if (data_.scene.light_size() == 0) {
     add_light(white_light(proto::Light::AMBIENT, 0.3F));

@@ -9,6 +9,10 @@
 namespace lfd {
 namespace {
 
+// Sides of the screen. The depth that is written has single precision at the size of the front limit: with this, steps
+// of 1e-4 of the screen are told apart there, however far away the observers are.
+constexpr double kMostFront = 500;
+
 // Singular depths are smooth over the screen, with at most a few extrema: a fine scan finds them. On a planar screen
 // they depend on the height alone, on a curved one on the arc length alone.
 constexpr int kPlaces = 65;
@@ -63,10 +67,12 @@ DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings
   if (!std::isfinite(singular)) singular = -vz;  // no module lights any of these places: nothing will be drawn
   DepthLimits limits;
   limits.in_z = display.optics.screen_radius_m == 0;
-  limits.front = std::min(settings.near_z_m.value_or(0.9 * vz), 0.999 * vz);
-  limits.back = std::max(settings.far_z_m.value_or(0.95 * singular), 0.999 * singular);
   // Kept apart even where the deployment asks for limits outside of what can be shown.
-  limits.back = std::min(limits.back, limits.front - 1e-6 * vz);
+  const double apart = 1e-6 * (vz - singular);
+  const double most_m = std::min(0.999 * vz, kMostFront * (display.screen.width_m + display.screen.height_m));
+  limits.front = std::clamp(settings.near_z_m.value_or(0.9 * vz), 0.999 * singular + apart, most_m);
+  limits.back = std::max(settings.far_z_m.value_or(0.95 * singular), 0.999 * singular);
+  limits.back = std::min(limits.back, limits.front - apart);
   bound_space(display, limits);
   double least_w = std::numeric_limits<double>::infinity();
   for_places(display, [&](const ModuleCalibration& module, ScreenPoint s, const PixelLine&) {

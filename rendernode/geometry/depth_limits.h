@@ -19,9 +19,9 @@ struct DepthLimits {
   double singular = 0;  // behind `back`: the nearest place where the lines of some module meet
 };
 
-// The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance, back
-// at least 0.1 % before the nearest plane where some module on some row of the screen has a singularity. Defaults:
-// settings.proto.
+// The deployment's limits, brought inside what the optics allow: front at most 0.999 of the observer's distance and 500
+// times the sum of the screen's sides, back at least 0.1 % before the nearest plane where some module on some row of
+// the screen has a singularity. Defaults: settings.proto.
 DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings& settings);
 
 }  // namespace lfd

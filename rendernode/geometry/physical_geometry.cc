@@ -2,6 +2,7 @@
 #include "rendernode/geometry/physical_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -51,7 +52,7 @@ std::vector<Corner> corners_of(const MeshArrays& mesh, const Affine<World, Mesh>
     corners[i].position = point_of<Physical>(physical_from_world_linear * world + to_glm(roi.physical_centre));
     const glm::dvec3 normal = normal_from_mesh * glm::dvec3(mesh.normal[i]);
     const double length = glm::length(normal);
-    corners[i].normal = length > 0 ? normal / length : glm::dvec3(0, 0, 1);
+    corners[i].normal = length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0, 0, 1);
     if (!mesh.uv.empty()) corners[i].uv = mesh.uv[i];
     if (!mesh.color.empty()) corners[i].color = mesh.color[i];
   }

@@ -62,7 +62,10 @@ void cut(std::vector<Corner>& polygon, Coordinate axis, double limit, double sig
   polygon = std::move(kept);
 }
 
-std::uint16_t half_of(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
+// The largest number of half precision stands for all beyond it.
+std::uint16_t half_of(double value) {
+  return glm::packHalf1x16(static_cast<float>(std::clamp(value, -65504.0, 65504.0)));
+}
 
 std::int16_t snorm_of(double value) {
   return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));

@@ -46,12 +46,14 @@ vec4 screen_from_physical(ModuleParams m, vec3 p) {
     vec2 normal = outward(m, from + ray.x * direction);
     if (!(normal.y > 0.0)) return vec4(0.0, 0.0, -1.0, 0.0);
     float whole = ray.y - ray.x;
-    return vec4(atan(normal.x, normal.y) / m.surface.x, m.observer.x + (p.y - m.observer.x) * (whole / (ray.y - to_point)),
-                to_point / ray.x, m.observer.y * ((to_point - ray.x) / whole));
+    return vec4(atan(normal.x, normal.y) / m.surface.x,
+                p.y + (p.y - m.observer.x) * ((to_point - ray.x) / (ray.y - to_point)), to_point / ray.x, m.observer.y * ((to_point - ray.x) / whole));
   }
-  float sy = m.observer.x + (p.y - m.observer.x) * (m.observer.y / (m.observer.y - p.z));
-  float w = m.observer.z == 0.0 ? (p.z - m.emitter.z) / -m.emitter.z : 1.0 + convergence(m, sy) * (p.z / m.observer.y);
-  return vec4(m.emitter.x + (p.x - m.emitter.x) / w, sy, w, p.z);
+  // As what is added to the point: observers and emitters may be 1e6 m away, where single precision has no millimetres.
+  float sy = p.y + (p.y - m.observer.x) * (p.z / (m.observer.y - p.z));
+  float q = convergence(m, sy) * (p.z / m.observer.y);
+  float w = m.observer.z == 0.0 ? (p.z - m.emitter.z) / -m.emitter.z : 1.0 + q;
+  return vec4(p.x + (m.emitter.x - p.x) * (q / w), sy, w, p.z);
 }
 
 // Depth of a point: z on a planar screen.
@@ -76,6 +78,5 @@ vec3 line_direction(ModuleParams m, vec2 s) {
     vec2 along = (ray.y - ray.x) * direction;
     return vec3(along.x, m.observer.x - s.y, along.y);
   }
-  float ox = s.x + (s.x - m.emitter.x) * convergence(m, s.y);
-  return vec3(ox - s.x, m.observer.x - s.y, m.observer.y);
+  return vec3((s.x - m.emitter.x) * convergence(m, s.y), m.observer.x - s.y, m.observer.y);
 }

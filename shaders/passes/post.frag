@@ -32,7 +32,7 @@ vec3 lit(vec3 base, vec3 position, vec3 normal, float openness) {
       light += l.color_kind.rgb * (a.w * max(dot(normal, a.xyz), 0.0));
     }
   }
-  return base * light;
+  return base * min(light, vec3(1e30));  // sums may be infinite, and nothing of them is lost: 0 times that is no number
 }
 
 // What the pixel is meant to show, linear.

@@ -41,6 +41,7 @@ void main() {
   out_position = vec4(dot(frame.world_from_physical_0, q), dot(frame.world_from_physical_1, q), dot(frame.world_from_physical_2, q), 1.0);
 #endif
 #ifdef WRITE_NORMAL
-  out_normal = vec4(normalize(normal) * p.w, 1.0);
+  // Between corners whose normals are opposite there is a place without one.
+  out_normal = vec4((dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 0.0, 1.0)) * p.w, 1.0);
 #endif
 }

@@ -1,0 +1,125 @@
+// Pictures through measured grids with folds and holes, and through lenses that turn back.
+#include <cmath>
+#include <limits>
+
+#include "base/log.h"
+#include "bench/stability/drawing.h"
+#include "bench/stability/groups.h"
+#include "calibration/check/acceptance.h"
+#include "calibration/make.h"
+
+namespace lfd::bench {
+namespace {
+
+constexpr const char* kGroup = "pictures through maps";
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// 17 x 13 nodes over 128 x 96 pixels and a screen of 0.4 x 0.3 m, bent smoothly.
+GridNodes bent_nodes() {
+  GridNodes nodes{17, 13, 0, 0, 8, 8, {}};
+  for (int row = 0; row < nodes.rows; ++row) {
+    for (int column = 0; column < nodes.columns; ++column) {
+      const PixelPoint p = nodes.place(column, row);
+      const double s = (p.x / 128 - 0.5) * 0.4, y = (0.5 - p.y / 96) * 0.3;
+      nodes.node.push_back({s + 0.004 * std::sin(9 * y), y + 0.003 * std::sin(8 * s)});
+    }
+  }
+  return nodes;
+}
+
+ScreenPoint& node(GridNodes& nodes, int column, int row) {
+  return nodes.node[static_cast<std::size_t>(row * nodes.columns + column)];
+}
+
+Drawing through(const ScreenMap& map) {
+  DisplayCalibration display = small_display();
+  display.modules[0].map = map;
+  return {display, sphere_in_box(small_roi()), small_roi(), {}};
+}
+
+Drawing through_grid(const GridNodes& nodes) {
+  const auto map = GridMap::make(nodes);
+  LFD_CHECK(map, map.error().message());
+  return through(*map);
+}
+
+GridNodes mirrored(GridNodes nodes) {
+  for (auto& n : nodes.node) n.x = -n.x;
+  return nodes;
+}
+
+// Turns back at 0.13 m on either side.
+GridNodes folded(GridNodes nodes) {
+  for (auto& n : nodes.node) n.x = 0.15 * std::sin(12 * n.x);
+  return nodes;
+}
+
+GridNodes with_holes_at_border(GridNodes nodes) {
+  for (int i = 0; i < nodes.columns; ++i) node(nodes, i, 0) = {kNaN, kNaN};
+  for (int i = 0; i < nodes.rows; ++i) node(nodes, nodes.columns - 1, i) = {kNaN, kNaN};
+  return nodes;
+}
+
+GridNodes with_node(ScreenPoint value) {
+  GridNodes nodes = bent_nodes();
+  node(nodes, 8, 6) = value;
+  return nodes;
+}
+
+// What the controller refuses before anything is rendered, unless it is told to show it all the same.
+StabilityCase not_accepted(const std::string& name, const std::string& words, std::function<Drawing()> make) {
+  return refused(kGroup, name + ": before anything is rendered", words,
+                 [make = std::move(make)] { return accept_calibration(make().display); });
+}
+
+// 128 x 96 pixels from 0.6 m behind the screen; the corners are 0.42 from the axis.
+PinholeMap lens(double k1, double p1 = 0, double p2 = 0) {
+  const DisplayCalibration display = small_display();
+  PinholeMap map = pinhole_of_ideal(display.screen, display.image, {0, 0, -0.6});
+  map.k1 = k1;
+  map.p1 = p1;
+  map.p2 = p2;
+  return map;
+}
+
+void add_grids(StabilityCases& cases) {
+  cases.push_back(drawn_true(kGroup, "grid bent smoothly", [] { return through_grid(bent_nodes()); }));
+  cases.push_back(drawn_true(kGroup, "grid mirrored as a whole", [] { return through_grid(mirrored(bent_nodes())); }));
+  cases.push_back(drawn_true(kGroup, "grid with holes along two borders",
+                             [] { return through_grid(with_holes_at_border(bent_nodes())); }));
+  cases.push_back(drawn_true(kGroup, "grid with a hole in the middle", [] {
+    return through_grid(with_node({kNaN, kNaN}));
+  }));
+  // A node that is off by three of its neighbours' distances.
+  cases.push_back(drawn_true(kGroup, "grid with one node a little off", [] {
+    return through_grid(with_node({0.004, 0.003}));
+  }));
+  const std::pair<const char*, GridNodes> no_maps[] = {
+      {"grid folded twice", folded(bent_nodes())},
+      {"grid with one node thrown far across its neighbours", with_node({0.19, -0.14})},
+      {"grid with one node at 9999 m", with_node({9999, 0})}};
+  for (const auto& [name, nodes] : no_maps) {
+    cases.push_back(not_accepted(name, "folded", [nodes = nodes] { return through_grid(nodes); }));
+  }
+}
+
+void add_lenses(StabilityCases& cases) {
+  cases.push_back(drawn_true(kGroup, "lens without distortion", [] { return through(lens(0)); }));
+  cases.push_back(drawn_true(kGroup, "lens with k1 = -0.5", [] { return through(lens(-0.5)); }));
+  cases.push_back(
+      drawn_true(kGroup, "lens with k1 = -2.2: turns back in the corners", [] { return through(lens(-2.2)); }));
+  cases.push_back(drawn_true(kGroup, "lens with k1 = -10: turns back in mid-image", [] { return through(lens(-10)); }));
+  cases.push_back(drawn_true(kGroup, "lens with k1 = 3", [] { return through(lens(3)); }));
+  cases.push_back(drawn_true(kGroup, "lens with p1 = 0.02, p2 = -0.01", [] { return through(lens(0, 0.02, -0.01)); }));
+  cases.push_back(drawn_true(kGroup, "lens with p1 = 0.8, p2 = -0.6: turns back sideways",
+                             [] { return through(lens(0, 0.8, -0.6)); }));
+}
+
+}  // namespace
+
+void add_map_picture_cases(StabilityCases& cases) {
+  add_grids(cases);
+  add_lenses(cases);
+}
+
+}  // namespace lfd::bench
