@@ -96,6 +96,7 @@ TEST(Warnings, AreEachSaidOnceAndTellOfAFrameThatShowsNothing) {
     proto::LeftOut& left = *frame.add_node()->add_left_out();
     left.set_what("module");
     left.set_which(module);
+    left.set_why("no geometry in its view");
   }
   EXPECT_THAT(warnings_of({frame, frame}, 3), IsEmpty());
   EXPECT_THAT(warnings_of({frame, frame}, 2), ElementsAre(HasSubstr("nothing of the scene is seen")));
