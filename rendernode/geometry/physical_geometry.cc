@@ -72,7 +72,8 @@ double slack_m(const RegionOfInterest& roi) {
 }  // namespace
 
 Result<PhysicalGeometry> build_geometry(const proto::Scene& scene, const Assets& assets, MeshCache& cache,
-                                        const RegionOfInterest& roi, const DepthLimits& limits, const EdgeRule& rule) {
+                                        const RegionOfInterest& roi, const DepthLimits& limits, const EdgeRule& rule,
+                                        std::size_t most_triangles) {
   PhysicalGeometry geometry;
   TriangleFeed feed(limits, rule, slack_m(roi), geometry);
   for (int i = 0; i < scene.instance_size(); ++i) {
@@ -87,7 +88,14 @@ Result<PhysicalGeometry> build_geometry(const proto::Scene& scene, const Assets&
     }
     feed.begin_item(instance.material(), corners_of(**mesh, *placement, roi));
     const auto& index = (*mesh)->index;
-    for (std::size_t t = 0; t + 2 < index.size(); t += 3) feed.add(index[t], index[t + 1], index[t + 2]);
+    for (std::size_t t = 0; t + 2 < index.size(); t += 3) {
+      feed.add(index[t], index[t + 1], index[t + 2]);
+      if (geometry.planes.size() <= most_triangles) continue;
+      return fail(Error(fmt::format(
+          "more than {} triangles where edges are split as the modules' maps bend: a coarser subdivision_px, smoother "
+          "maps or a smaller scene is needed",
+          most_triangles)));
+    }
     feed.end_item(content_hash(instance.SerializeAsString()));
   }
   return geometry;

@@ -5,6 +5,7 @@
 // interest lies, and however small it is, the GPU sees coordinates of the size of the screen.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -51,8 +52,13 @@ struct PhysicalGeometry {
 // Decoded meshes by content hash, kept from one build to the next.
 using MeshCache = std::unordered_map<std::string, MeshArrays>;
 
-// Errors name the instance and what its mesh lacks. All meshes of the scene are in `assets`.
+// Triangles after cutting and splitting: 6 GB of memory. Lenses that bend absurdly would split a wall into as many.
+inline constexpr std::size_t kMostTriangles = std::size_t{1} << 25;
+
+// Errors name the instance and what its mesh lacks, or that more than most_triangles are needed. All meshes of the
+// scene are in `assets`.
 Result<PhysicalGeometry> build_geometry(const proto::Scene& scene, const Assets& assets, MeshCache& cache,
-                                        const RegionOfInterest& roi, const DepthLimits& limits, const EdgeRule& rule);
+                                        const RegionOfInterest& roi, const DepthLimits& limits, const EdgeRule& rule,
+                                        std::size_t most_triangles = kMostTriangles);
 
 }  // namespace lfd

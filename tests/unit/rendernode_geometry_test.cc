@@ -1,4 +1,5 @@
 // Triangles as they are drawn: cut within the limits, on their planes, without cracks between neighbours.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,6 +66,10 @@ void for_random_surfaces(Visit visit) {
       ASSERT_TRUE(geometry) << geometry.error().message();
       EXPECT_GT(geometry->cut_triangles, 0U);
       EXPECT_GT(geometry->planes.size(), 2U * geometry->source_triangles);
+      const auto too_many = build_geometry(maker.data().scene, maker.data().assets, cache, reference::same_spaces(),
+                                           limits, rule, geometry->planes.size() - 1);
+      ASSERT_FALSE(too_many);
+      EXPECT_THAT(too_many.error().message(), testing::StartsWith("instance 0: more than "));
       visit(Built{limits, *geometry});
     }
   }
