@@ -177,6 +177,10 @@ std::optional<Exit> Process::wait(Clock::duration at_most) {
   int status = 0;
   while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) continue;
   exit_ = exit_of(status);
+  // Its last words are in the pipe, and on their way; a grandchild that goes on talking is not waited for.
+  constexpr auto kLastWords = std::chrono::milliseconds(500);
+  std::unique_lock lock(mutex_);
+  arrived_.wait_for(lock, kLastWords, [&] { return output_ended_; });
   return exit_;
 }
 

@@ -59,7 +59,7 @@ class Process {
   // `at_most` and where the process has ended without such a line.
   std::optional<std::string> wait_for_line(std::string_view text, Clock::duration at_most);
 
-  // Absent while it runs (after `at_most` has passed).
+  // Absent while it runs (after `at_most` has passed). Once it has ended, lines() has its last words.
   std::optional<Exit> wait(Clock::duration at_most);
   std::optional<Exit> poll() { return wait(Clock::duration::zero()); }
 

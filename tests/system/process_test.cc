@@ -26,6 +26,20 @@ TEST(Process, GivesLinesOfBothStreamsAndTheExitCode) {
   EXPECT_THAT(process->lines(), ElementsAre("one", "two", "x y"));
 }
 
+TEST(Process, HasItsLastWordsOnceItHasEnded) {
+  for (int i = 0; i < 50; ++i) {
+    const auto process = shell("echo last words");
+    ASSERT_TRUE(process->wait(10s));
+    ASSERT_THAT(process->lines(), ElementsAre("last words")) << "run " << i;
+  }
+}
+
+TEST(Process, DoesNotWaitForAGrandchildThatGoesOnTalking) {
+  const auto process = shell("(for i in 1 2 3 4 5 6 7 8 9; do echo $i; sleep 1; done) & exit 0");
+  EXPECT_TRUE(process->wait(10s)->succeeded());
+  EXPECT_THAT(process->lines().size(), testing::Lt(5U)) << "nine seconds have not passed";
+}
+
 TEST(Process, WaitsForLinesInTheirOrder) {
   const auto process = shell("echo a1; echo a2; sleep 100");
   EXPECT_EQ(process->wait_for_line("a", 10s), "a1");
