@@ -1,5 +1,4 @@
 // lfd view: what a viewer in front of the display sees.
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "base/temporary_folder.h"
 #include "cli/lfd_commands.h"
 #include "proto/frame_files.h"
 
@@ -22,26 +22,6 @@ struct Arguments {
   std::vector<double> eye;  // X,Y,Z
   std::string out;
   std::string frames;  // folder of lfd render; empty: one frame is rendered
-};
-
-// A folder that goes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "lfd-view-XXXXXX").string();
-    LFD_CHECK(::mkdtemp(pattern.data()) != nullptr, "a temporary folder can be made");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 // Lets lfd-display make the picture from a frame's folder.
@@ -72,7 +52,7 @@ Status view(const Arguments& arguments, StopSignals& signals) {
     const fs::path first = frame_path(arguments.frames, 0);
     return look(arguments, fs::is_directory(first) ? first : fs::path(arguments.frames), signals);
   }
-  const TemporaryFolder folder;
+  const TemporaryFolder folder("lfd-view");
   RenderOptions render_options;
   render_options.cluster = arguments.cluster;
   render_options.cluster.images = folder.path();

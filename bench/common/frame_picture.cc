@@ -18,10 +18,12 @@ PictureF picture_of(const ModuleImage& image) {
   return picture;
 }
 
-PictureF picture_of(const FrameResult& frame, proto::BufferKind kind) {
+const ModuleImage& image_of(const FrameResult& frame, proto::BufferKind kind) {
   const auto image = std::ranges::find(frame.images, kind, &ModuleImage::kind);
   LFD_CHECK(image != frame.images.end(), "every buffer that was asked for");
-  return picture_of(*image);
+  return *image;
 }
+
+PictureF picture_of(const FrameResult& frame, proto::BufferKind kind) { return picture_of(image_of(frame, kind)); }
 
 }  // namespace lfd::bench

@@ -10,6 +10,7 @@ namespace lfd::bench {
 PictureF picture_of(const ModuleImage& image);
 
 // The first image of this kind. The buffer must have been asked for.
+const ModuleImage& image_of(const FrameResult& frame, proto::BufferKind kind);
 PictureF picture_of(const FrameResult& frame, proto::BufferKind kind);
 
 }  // namespace lfd::bench

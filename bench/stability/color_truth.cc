@@ -11,12 +11,6 @@
 namespace lfd::bench {
 namespace {
 
-const ModuleImage& color_image(const FrameResult& frame) {
-  const auto found = std::ranges::find(frame.images, proto::COLOR, &ModuleImage::kind);
-  LFD_CHECK(found != frame.images.end(), "colour is always read back");
-  return *found;
-}
-
 // As it is kept between the passes.
 glm::dvec3 albedo_of(const proto::Scene& scene) {
   glm::dvec3 albedo(1);
@@ -48,7 +42,7 @@ glm::dvec3 drive_of(const DisplayCalibration& display, PixelPoint at, glm::dvec3
 ColorTruth compare_colors(const DisplayCalibration& display, const proto::Scene& scene, const RegionOfInterest& roi,
                           const RenderSettings& settings, const FrameResult& frame) {
   ColorTruth truth;
-  const ModuleImage& color = color_image(frame);
+  const ModuleImage& color = image_of(frame, proto::COLOR);
   if (color.empty) return truth;
   const PictureF position = picture_of(frame, proto::POSITION), normal = picture_of(frame, proto::NORMAL),
                  ao = picture_of(frame, proto::AO);

@@ -39,8 +39,7 @@ struct Drawn {
 Result<Drawn> draw(const gl::Context& context, const Drawing& drawing);
 
 // Passes where positions are within the bounds, colours within kColorTolerance, and no buffer has a number that is not
-// finite. `make` makes the
-// drawing when the case runs.
+// finite. `make` makes the drawing when the case runs.
 StabilityCase drawn_true(std::string group, std::string name, std::function<Drawing()> make,
                          const PictureBounds& bounds = {});
 

@@ -1,10 +1,8 @@
 // Bad numbers in every field of calibrations and deployments: refused by name, or harmless.
-#include <stdlib.h>
-
-#include <filesystem>
 #include <set>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "bench/stability/groups.h"
 #include "bench/stability/harmless.h"
 #include "bench/stability/message_fields.h"
@@ -56,31 +54,16 @@ proto::Deployment whole_deployment() {
   return m;
 }
 
-// A new folder of this process alone, gone with its last user.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lfd-stability-XXXXXX").string();
-    if (::mkdtemp(name.data())) path = name;  // otherwise writing into it says what is wrong
-  }
-  ~Folder() {
-    std::error_code ignored;
-    if (!path.empty()) std::filesystem::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
-
 StabilityCase deployment_case(const NumberField& field) {
   return {"fields of deployments", field.road, kEachRefusedOrHarmless, [field](const gl::Context&) {
-            const Folder folder;
+            const TemporaryFolder folder("lfd-stability");
             Tally tally(field.words);
-            const Status saved = save_calibration(folder.path / "display.textproto", plain_display());
+            const Status saved = save_calibration(folder.path() / "display.textproto", plain_display());
             if (!saved) return Outcome{saved.error().message(), 0, false};
             for (const auto& [value, message] : field.spoilt) {
-              const Status written = write_file(folder.path / "deployment.textproto", print_text(*message));
+              const Status written = write_file(folder.path() / "deployment.textproto", print_text(*message));
               if (!written) return Outcome{written.error().message(), 0, false};
-              const auto deployment = load_deployment(folder.path / "deployment.textproto");
+              const auto deployment = load_deployment(folder.path() / "deployment.textproto");
               if (!deployment) {
                 tally.refused(value, deployment.error().message());
                 continue;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/log.h"
+#include "bench/stability/bent_grids.h"
 #include "bench/stability/groups.h"
 #include "calibration/maps/grid.h"
 
@@ -14,22 +15,8 @@ constexpr const char* kGroup = "grid";
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// 17 x 13 nodes over 256 x 192 pixels and a screen of 0.4 x 0.3 m, bent smoothly.
-GridNodes bent_nodes() {
-  GridNodes nodes{17, 13, 0, 0, 16, 16, {}};
-  for (int row = 0; row < nodes.rows; ++row) {
-    for (int column = 0; column < nodes.columns; ++column) {
-      const PixelPoint p = nodes.place(column, row);
-      const double s = (p.x / 256 - 0.5) * 0.4, y = (0.5 - p.y / 192) * 0.3;
-      nodes.node.push_back({s + 0.004 * std::sin(9 * y), y + 0.003 * std::sin(8 * s)});
-    }
-  }
-  return nodes;
-}
-
-ScreenPoint& node(GridNodes& nodes, int column, int row) {
-  return nodes.node[static_cast<std::size_t>(row * nodes.columns + column)];
-}
+// 256 x 192 pixels.
+GridNodes bent_nodes() { return bench::bent_nodes({256, 192}); }
 
 // Screen -> image -> screen over the screen and beside it, in metres; image -> screen -> image likewise, in pixels of
 // 1.6 mm, which a fold may answer with another pixel of the same screen point: it is judged on the screen.
@@ -85,31 +72,13 @@ StabilityCase rejects(const std::string& name, const std::string& words, GridNod
   });
 }
 
-GridNodes folded() {
-  GridNodes nodes = bent_nodes();
-  for (auto& n : nodes.node) n.x = 0.15 * std::sin(12 * n.x);  // turns back at 0.13 m on either side
-  return nodes;
-}
-
-GridNodes with_holes_at_border() {
-  GridNodes nodes = bent_nodes();
-  for (int i = 0; i < nodes.columns; ++i) node(nodes, i, 0) = {kNaN, kNaN};
-  for (int i = 0; i < nodes.rows; ++i) node(nodes, nodes.columns - 1, i) = {kNaN, kNaN};
+GridNodes with_holes() {
+  GridNodes nodes = with_holes_at_border(bent_nodes());
   node(nodes, 0, nodes.rows - 1) = {kNaN, kNaN};
   return nodes;
 }
 
-GridNodes mirrored() {
-  GridNodes nodes = bent_nodes();
-  for (auto& n : nodes.node) n.x = -n.x;
-  return nodes;
-}
-
-GridNodes with_node(ScreenPoint value) {
-  GridNodes nodes = bent_nodes();
-  node(nodes, 8, 6) = value;
-  return nodes;
-}
+GridNodes with_node(ScreenPoint value) { return bench::with_node(bent_nodes(), value); }
 
 void add_refusals(StabilityCases& cases) {
   GridNodes nodes = bent_nodes();
@@ -148,12 +117,12 @@ void add_refusals(StabilityCases& cases) {
 void add_grid_cases(StabilityCases& cases) {
   // Every pixel, but those whose cell has a hole at a corner, or that lies in what has folded.
   cases.push_back(inverts("bent smoothly", bent_nodes(), 1));
-  cases.push_back(inverts("folded twice", folded(), 0.35));
-  cases.push_back(inverts("holes along two borders and at a corner", with_holes_at_border(), 0.84));
+  cases.push_back(inverts("folded twice", folded(bent_nodes()), 0.35));
+  cases.push_back(inverts("holes along two borders and at a corner", with_holes(), 0.84));
   cases.push_back(inverts("a hole in the middle", with_node({kNaN, kNaN}), 0.97));
   cases.push_back(inverts("one node thrown far across its neighbours", with_node({0.19, -0.14}), 0.9));
   cases.push_back(inverts("one node at 9999 m", with_node({9999, 0}), 0.9));
-  cases.push_back(inverts("mirrored as a whole", mirrored(), 1));
+  cases.push_back(inverts("mirrored as a whole", mirrored(bent_nodes()), 1));
   GridNodes nodes = bent_nodes();
   for (auto& n : nodes.node) n = {1e-9 * n.x, 1e-9 * n.y};
   cases.push_back(inverts("shrunk to a nanometre", nodes, 1));
@@ -161,7 +130,7 @@ void add_grid_cases(StabilityCases& cases) {
   node(nodes, 9, 6) = {std::nextafter(node(nodes, 8, 6).x, 1), node(nodes, 8, 6).y};
   cases.push_back(inverts("two nodes one rounding apart", nodes, 0.9));
   cases.push_back(faultless(kGroup, "folded twice: share of mirrored cells", "0.35 to 0.65 of the cells", [] {
-    const auto map = GridMap::make(folded());
+    const auto map = GridMap::make(folded(bent_nodes()));
     if (!map) return map.error().message();
     const double share = map->folded_share();
     return share > 0.35 && share < 0.65 ? std::string() : fmt::format("{}", share);

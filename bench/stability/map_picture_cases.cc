@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/log.h"
+#include "bench/stability/bent_grids.h"
 #include "bench/stability/drawing.h"
 #include "bench/stability/groups.h"
 #include "calibration/check/acceptance.h"
@@ -14,22 +15,8 @@ namespace {
 constexpr const char* kGroup = "pictures through maps";
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// 17 x 13 nodes over 128 x 96 pixels and a screen of 0.4 x 0.3 m, bent smoothly.
-GridNodes bent_nodes() {
-  GridNodes nodes{17, 13, 0, 0, 8, 8, {}};
-  for (int row = 0; row < nodes.rows; ++row) {
-    for (int column = 0; column < nodes.columns; ++column) {
-      const PixelPoint p = nodes.place(column, row);
-      const double s = (p.x / 128 - 0.5) * 0.4, y = (0.5 - p.y / 96) * 0.3;
-      nodes.node.push_back({s + 0.004 * std::sin(9 * y), y + 0.003 * std::sin(8 * s)});
-    }
-  }
-  return nodes;
-}
-
-ScreenPoint& node(GridNodes& nodes, int column, int row) {
-  return nodes.node[static_cast<std::size_t>(row * nodes.columns + column)];
-}
+// 128 x 96 pixels.
+GridNodes bent_nodes() { return bench::bent_nodes({128, 96}); }
 
 Drawing through(const ScreenMap& map) {
   DisplayCalibration display = small_display();
@@ -43,28 +30,7 @@ Drawing through_grid(const GridNodes& nodes) {
   return through(*map);
 }
 
-GridNodes mirrored(GridNodes nodes) {
-  for (auto& n : nodes.node) n.x = -n.x;
-  return nodes;
-}
-
-// Turns back at 0.13 m on either side.
-GridNodes folded(GridNodes nodes) {
-  for (auto& n : nodes.node) n.x = 0.15 * std::sin(12 * n.x);
-  return nodes;
-}
-
-GridNodes with_holes_at_border(GridNodes nodes) {
-  for (int i = 0; i < nodes.columns; ++i) node(nodes, i, 0) = {kNaN, kNaN};
-  for (int i = 0; i < nodes.rows; ++i) node(nodes, nodes.columns - 1, i) = {kNaN, kNaN};
-  return nodes;
-}
-
-GridNodes with_node(ScreenPoint value) {
-  GridNodes nodes = bent_nodes();
-  node(nodes, 8, 6) = value;
-  return nodes;
-}
+GridNodes with_node(ScreenPoint value) { return bench::with_node(bent_nodes(), value); }
 
 // What the controller refuses before anything is rendered, unless it is told to show it all the same.
 StabilityCase not_accepted(const std::string& name, const std::string& words, std::function<Drawing()> make) {

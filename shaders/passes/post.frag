@@ -1,4 +1,5 @@
-// Pass 6, post processing: lights, ambient occlusion through its curve, last the module's colour. The target applies the sRGB transfer.
+// Pass 6, post processing: lights, ambient occlusion through its curve, last the module's colour. The target applies
+// the sRGB transfer.
 #version 450 core
 #include "shared/bindings.glsl"
 #include "shared/color_params.glsl"

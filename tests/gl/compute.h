@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,18 @@ inline std::vector<glm::vec4> compute(const std::string& head, const std::string
                           results.data());
   glUseProgram(0);
   return results;
+}
+
+// Uniform between two corners; seeded. The fourth number is 0.
+inline std::vector<glm::vec4> random_points(int count, glm::vec3 low, glm::vec3 high, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<glm::vec4> points;
+  for (int i = 0; i < count; ++i) {
+    const float x = unit(random), y = unit(random), z = unit(random);
+    points.emplace_back(low + (high - low) * glm::vec3(x, y, z), 0);
+  }
+  return points;
 }
 
 }  // namespace lfd::testing_support

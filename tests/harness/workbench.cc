@@ -3,7 +3,6 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -52,22 +51,14 @@ int parent_of(int process) {
 }  // namespace
 
 Workbench::Workbench() {
-  std::string pattern = (fs::temp_directory_path() / "lfd-test-XXXXXX").string();
-  LFD_CHECK(::mkdtemp(pattern.data()) != nullptr, "a temporary folder can be made");
-  folder_ = pattern;
-  const Status saved = save_calibration(folder_ / "display.textproto", small_display());
+  const Status saved = save_calibration(folder() / "display.textproto", small_display());
   LFD_CHECK(saved, saved.error().message());
 }
 
-Workbench::~Workbench() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 fs::path Workbench::file(const std::string& name, const std::string& content) const {
-  const Status written = write_file(folder_ / name, content);
+  const Status written = write_file(folder() / name, content);
   LFD_CHECK(written, written.error().message());
-  return folder_ / name;
+  return folder() / name;
 }
 
 fs::path Workbench::deployment(const std::string& more, const std::string& name) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/process.h"
+#include "base/temporary_folder.h"
 
 namespace lfd::harness {
 
@@ -14,11 +15,8 @@ namespace lfd::harness {
 class Workbench {
  public:
   Workbench();
-  ~Workbench();
-  Workbench(const Workbench&) = delete;
-  Workbench& operator=(const Workbench&) = delete;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
   // Writes a deployment of that display with a made scene and the nodes "left" and "right"; `more` is appended
   // (Protobuf text).
@@ -28,7 +26,7 @@ class Workbench {
   std::filesystem::path file(const std::string& name, const std::string& content) const;
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_{"lfd-test"};
 };
 
 // Starts a program of the build by name; fails the test (and aborts it) where that is not possible.

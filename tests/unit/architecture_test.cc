@@ -61,8 +61,7 @@ const std::vector<Door>& doors() {
       {{"pugixml.hpp"}, {"calibration/import/mpcdi_xml"}},
       {{"nlohmann/"},
        {"calibration/import/holovizio_json.cc", "cli/fit_report.cc", "cli/lfd_calibrate_check_json.cc", "cli/report.cc",
-        "bench/frame/print_json.cc", "bench/map/map_print.cc",
-        "bench/stability/print_json.cc"}},
+        "bench/frame/print_json.cc", "bench/map/map_print.cc", "bench/stability/print_json.cc"}},
       {{"ceres/", "Eigen/"}, {"calibration/fit/"}},
       {{"tiny_gltf.h"}, {"controller/scene/gltf/"}},
       {{"embree3/"}, {"bench/reference/intersector.cc"}},
@@ -75,14 +74,6 @@ const std::vector<Door>& doors() {
   return kDoors;
 }
 
-// Files that may be longer than the limit, and why.
-const std::map<std::string, std::string>& long_files() {
-  static const std::map<std::string, std::string> kLong{
-      {"tests/gl/twins_test.cc", "one subject: every GPU function beside its C++ twin, with the shader that calls it"},
-      {"tests/unit/display_assembly_test.cc", "one subject in many short cases, which share the same played nodes"},
-  };
-  return kLong;
-}
 constexpr std::size_t kMostLines = 300;
 
 // Files that may name a place of the machine, and why.
@@ -251,9 +242,7 @@ TEST(Architecture, EveryFileBeginsWithItsSentence) {
 
 TEST(Architecture, FilesAreShort) {
   for (const Source& source : sources()) {
-    const bool is_long = source.lines.size() > kMostLines;
-    EXPECT_EQ(is_long, long_files().contains(source.path))
-        << source.path << ": " << source.lines.size() << " lines; the list of long files says otherwise";
+    EXPECT_LE(source.lines.size(), kMostLines) << source.path;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "calibration/check/acceptance.h"
 #include "calibration/make.h"
+#include "tests/unit/one_module.h"
 
 namespace lfd {
 namespace {
@@ -15,16 +16,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-DisplayCalibration one_module() {
-  DisplayCalibration display;
-  display.screen = {2, 1};
-  display.image = {200, 100};
-  display.optics = {Diffuser::kLinear, 0.5, 4};
-  display.angular_scattering_rad = 0.1;
-  display.modules = {{{0.2, -0.3, -2}, IdealMap{}}};
-  return display;
-}
 
 TEST(CheckAngles, SpacingIsThatOfArithmetic) {
   DisplayCalibration display = one_module();

@@ -9,6 +9,7 @@
 #include "calibration/check/acceptance.h"
 #include "calibration/check/derivatives.h"
 #include "calibration/make.h"
+#include "tests/unit/one_module.h"
 
 namespace lfd {
 namespace {
@@ -16,16 +17,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-DisplayCalibration one_module() {
-  DisplayCalibration display;
-  display.screen = {2, 1};
-  display.image = {200, 100};
-  display.optics = {Diffuser::kLinear, 0.5, 4};
-  display.angular_scattering_rad = 0.1;
-  display.modules = {{{0.2, -0.3, -2}, IdealMap{}}};
-  return display;
-}
 
 // The ideal map of that display as a grid of so many cells, its nodes moved or taken away by `change`.
 GridMap grid_of(

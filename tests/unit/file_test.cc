@@ -1,13 +1,13 @@
 // Files that are written: what is replaced, what is written to as it is, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "proto/frame_files.h"
 
 namespace lfd {
@@ -18,14 +18,8 @@ using testing::HasSubstr;
 
 class Files : public testing::Test {
  protected:
-  Files() {
-    std::string pattern = (fs::temp_directory_path() / "lfd-files-XXXXXX").string();
-    EXPECT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  ~Files() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  const TemporaryFolder temporary_{"lfd-files"};
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Files, AreReplacedWholeAndKeepTheirPermissions) {
