@@ -31,6 +31,7 @@ Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::
     : display_(std::move(display)),
       modules_(std::move(modules)),
       description_(context.description()),
+      is_software_(context.is_software()),
       targets_(display_.image, static_cast<int>(modules_.size())) {
   LFD_CHECK(modules_.size() <= MODULES_PER_NODE, "more modules than a node can have");
 }
@@ -81,7 +82,8 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   }
   std::optional<PhysicalGeometry> geometry;
   if (new_geometry) {
-    LFD_TRY(geometry, build_geometry(state.scene(), assets, meshes_, roi, limits, rule ? *rule : *rule_));
+    LFD_TRY(geometry,
+            build_geometry(state.scene(), assets, meshes_, roi, limits, rule ? *rule : *rule_, most_triangles()));
   }
   GpuGeometry gpu_geometry;
   if (geometry) {
@@ -146,7 +148,7 @@ Status Renderer::draw(const FrameOptions& options) {
   if (!slot.reused) {
     const bool may_reuse = options.reuse && drawn_buffers_ == options.buffers && !drawn_inputs_.empty();
     slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
-                            options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr});
+                            options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_});
     const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
     LFD_TRY_STATUS(passes_.submit(slot.plan, commands,
                                   {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},

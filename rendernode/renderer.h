@@ -92,6 +92,7 @@ class Renderer {
   DisplayCalibration display_;
   std::vector<std::uint32_t> modules_;
   std::string description_;
+  bool is_software_;
   std::unique_ptr<const WarpTables> tables_;  // on the heap: rule_ refers to it
   std::vector<std::string> table_warnings_;
   GpuModules gpu_modules_;

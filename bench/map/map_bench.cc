@@ -181,11 +181,10 @@ std::vector<std::string> missed_bounds(const reference::Truth& truth, const MapB
 
 std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds) {
   std::vector<std::string> missed;
-  const bool by_wall = table.renderer.find("llvmpipe") != std::string::npos;
   for (const MapRow& row : table.rows) {
     if (row.variant != variant) continue;
     std::vector<std::string> of_row = missed_bounds(row.truth, bounds);
-    const double ratio = (by_wall ? row.wall_ratio : row.gpu_ratio).median;
+    const double ratio = (table.is_software ? row.wall_ratio : row.gpu_ratio).median;
     if (row.scene == table.rows.front().scene && ratio > bounds.ratio)
       of_row.push_back(fmt::format("time over plain vertices {:.2f}; at most {:.2f} is allowed", ratio, bounds.ratio));
     for (const std::string& line : of_row)
@@ -206,7 +205,8 @@ Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& op
   }
   const DisplayCalibration& display = deployments.front().display;
   LFD_TRY(const std::vector<std::uint32_t> modules, chosen_modules(options, display));
-  MapTable table{display.name, display.image, context.description(), kVersion, options.frames, {}};
+  MapTable table{
+      display.name, display.image, context.description(), context.is_software(), kVersion, options.frames, {}};
   for (const Deployment& deployment : deployments) {
     LFD_TRY(const LoadedScene scene, load_shown_scene(deployment));
     for (const std::uint32_t module : modules) {

@@ -43,6 +43,7 @@ struct MapTable {
   std::string display;
   ImageSize image;
   std::string renderer;
+  bool is_software = false;
   std::string version;
   int frames = 0;
   std::vector<MapRow> rows;  // scenes in turn, their modules, and their variants in the order of map_variants()

@@ -64,6 +64,13 @@ double EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Phy
   return worst / tolerance_px_;
 }
 
+double EdgeRule::beside_m() const {
+  constexpr double kCornerGrid_px = 1.0 / 128;  // OpenGL promises 1/16 of a pixel; all that are known have 1/256
+  const double pitch_m =
+      std::max(display_->screen.width_m / display_->image.width, display_->screen.height_m / display_->image.height);
+  return (tolerance_px_ + kCornerGrid_px) * pitch_m;
+}
+
 bool EdgeRule::is_beside(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
   const auto at_a = map.screen_from_physical(a), at_b = map.screen_from_physical(b);
   return at_a && at_b && beside(display_->screen, at_a->at, at_b->at);

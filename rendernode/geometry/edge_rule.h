@@ -23,6 +23,10 @@ class EdgeRule {
   // Symmetric in its arguments.
   bool must_split(Point3<Physical> a, Point3<Physical> b) const;
 
+  // How far beside an edge, on the screen, a triangle that need not be split may still find pixels, metres: by the
+  // tolerance, and by the grid that rasterisers bring corners to.
+  double beside_m() const;
+
   // Largest deviation over all modules that see the edge, in tolerances (tests: at most 1 where must_split says no).
   double deviation(Point3<Physical> a, Point3<Physical> b) const;
 

@@ -14,7 +14,7 @@ constexpr std::uint32_t kNotWritten = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMostSplits = 10;  // halvings of one edge; by then a rule that is never content has met a singularity
 
 std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physical> b, Point3<Physical> c,
-                                               double slack_m) {
+                                               double slack_m, double grazing) {
   const Vector3<Physical> n = cross(b - a, c - a);
   const double area2 = length(n);
   if (!(area2 > 0) || !std::isfinite(area2)) return std::nullopt;
@@ -28,7 +28,7 @@ std::optional<shared::PrimitivePlane> plane_of(Point3<Physical> a, Point3<Physic
   const double at_b = -dot(to_b, c - Point3<Physical>{}) + slack_m * length(to_b);
   const double slacks = slack_m * (length(to_a) + length(to_b) + length(to_a + to_b));
   return shared::PrimitivePlane{{unit.x, unit.y, unit.z, offset},
-                                {low, high, 1 + slacks, 0},
+                                {low, high, 1 + slacks, grazing * grazing},
                                 {to_a.x, to_a.y, to_a.z, at_a},
                                 {to_b.x, to_b.y, to_b.z, at_b}};
 }
@@ -96,40 +96,40 @@ void TriangleFeed::begin_item(std::uint32_t material, std::vector<Corner> corner
            {-kFar, -kFar, -kFar}};
   corners_ = std::move(corners);
   written_.assign(corners_.size(), kNotWritten);
+  middles_.clear();
 }
 
 void TriangleFeed::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   ++out_.source_triangles;
   const std::array<Point3<Physical>, 3> p{corners_[a].position, corners_[b].position, corners_[c].position};
-  const auto plane = plane_of(p[0], p[1], p[2], slack_m_);
+  const auto plane = plane_of(p[0], p[1], p[2], slack_m_, grazing_);
   if (!plane) {
     ++out_.degenerate_triangles;
     return;
   }
   if (reaches_beyond(limits_, p)) {
     ++out_.cut_triangles;
-    return add_cut({corners_[a], corners_[b], corners_[c]}, *plane);
+    return add_cut({a, b, c}, *plane);
   }
-  if (rule_.must_split(p[0], p[1]) || rule_.must_split(p[1], p[2]) || rule_.must_split(p[2], p[0])) {
-    split({corners_[a], corners_[b], corners_[c]}, *plane, 0);
-    return;
-  }
-  std::array<std::uint32_t, 3> index{a, b, c};
-  for (auto& i : index) {
-    if (written_[i] == kNotWritten) written_[i] = write(corners_[i]);
-    i = written_[i];
-  }
-  emit(index, p, *plane);
+  split({a, b, c}, *plane, 0);
 }
 
 // Sutherland-Hodgman against the sides of the box, then a fan.
 void TriangleFeed::add_cut(const Triangle& triangle, const shared::PrimitivePlane& plane) {
-  std::vector<Corner> polygon(triangle.begin(), triangle.end());
+  std::vector<Corner> polygon;
+  for (const std::uint32_t corner : triangle) polygon.push_back(corners_[corner]);
   for (const Coordinate axis : kAxes) {
     cut(polygon, axis, limits_.high.*axis, -1);
     cut(polygon, axis, limits_.low.*axis, 1);
   }
-  for (std::size_t i = 2; i < polygon.size(); ++i) split({polygon[0], polygon[i - 1], polygon[i]}, plane, 0);
+  if (polygon.empty()) return;
+  const std::uint32_t first = append(polygon[0]);
+  std::uint32_t last = append(polygon[1]);
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const std::uint32_t next = append(polygon[i]);
+    split({first, last, next}, plane, 0);
+    last = next;
+  }
 }
 
 // Halves every edge that the rule names: 1, 2 or 3 of them give 2, 3 or 4 triangles.
@@ -137,44 +137,53 @@ void TriangleFeed::split(const Triangle& t, const shared::PrimitivePlane& plane,
   std::array<bool, 3> halve{};
   int count = 0;
   for (std::size_t i = 0; i < 3 && depth < kMostSplits; ++i) {
-    halve[i] = rule_.must_split(t[i].position, t[(i + 1) % 3].position);
+    halve[i] = rule_.must_split(corners_[t[i]].position, corners_[t[(i + 1) % 3]].position);
     count += halve[i] ? 1 : 0;
   }
   if (count == 0) return emit(t, plane);
-  const auto middle = [&](std::size_t i) { return middle_of(t[i], t[(i + 1) % 3]); };
   if (count == 3) {
-    const Triangle m{middle(0), middle(1), middle(2)};
+    const Triangle m{middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
     split({t[0], m[0], m[2]}, plane, depth + 1);
     split({m[0], t[1], m[1]}, plane, depth + 1);
     split({m[2], m[1], t[2]}, plane, depth + 1);
     return split(m, plane, depth + 1);
   }
   // Turn the triangle so that edge 0 is halved and, of two, edge 1 as well.
-  std::size_t first = 0;
-  while (!halve[first] || (count == 2 && !halve[(first + 1) % 3])) ++first;
-  const Corner &a = t[first], &b = t[(first + 1) % 3], &c = t[(first + 2) % 3];
-  const Corner ab = middle(first);
+  std::size_t turn = 0;
+  while (!halve[turn] || (count == 2 && !halve[(turn + 1) % 3])) ++turn;
+  const std::uint32_t a = t[turn], b = t[(turn + 1) % 3], c = t[(turn + 2) % 3];
+  const std::uint32_t ab = middle(a, b);
   if (count == 1) {
     split({a, ab, c}, plane, depth + 1);
     return split({ab, b, c}, plane, depth + 1);
   }
-  const Corner bc = middle((first + 1) % 3);
+  const std::uint32_t bc = middle(b, c);
   split({ab, b, bc}, plane, depth + 1);
   split({a, ab, bc}, plane, depth + 1);
   split({a, bc, c}, plane, depth + 1);
 }
 
-void TriangleFeed::emit(const Triangle& t, const shared::PrimitivePlane& plane) {
-  emit({write(t[0]), write(t[1]), write(t[2])}, {t[0].position, t[1].position, t[2].position}, plane);
+std::uint32_t TriangleFeed::append(const Corner& corner) {
+  corners_.push_back(corner);
+  written_.push_back(kNotWritten);
+  return static_cast<std::uint32_t>(corners_.size() - 1);
 }
 
-void TriangleFeed::emit(std::array<std::uint32_t, 3> index, const std::array<Point3<Physical>, 3>& p,
-                        const shared::PrimitivePlane& plane) {
+std::uint32_t TriangleFeed::middle(std::uint32_t a, std::uint32_t b) {
+  const auto [low, high] = std::minmax(a, b);
+  const auto [known, is_new] = middles_.try_emplace(std::uint64_t{low} << 32U | high, kNotWritten);
+  if (is_new) known->second = append(middle_of(corners_[a], corners_[b]));
+  return known->second;
+}
+
+void TriangleFeed::emit(const Triangle& t, const shared::PrimitivePlane& plane) {
   out_.planes.push_back(plane);
-  out_.indices.insert(out_.indices.end(), index.begin(), index.end());
-  for (const auto& corner : p) {
-    item_.low = {std::min(item_.low.x, corner.x), std::min(item_.low.y, corner.y), std::min(item_.low.z, corner.z)};
-    item_.high = {std::max(item_.high.x, corner.x), std::max(item_.high.y, corner.y), std::max(item_.high.z, corner.z)};
+  for (const std::uint32_t i : t) {
+    if (written_[i] == kNotWritten) written_[i] = write(corners_[i]);
+    out_.indices.push_back(written_[i]);
+    const Point3<Physical> p = corners_[i].position;
+    item_.low = {std::min(item_.low.x, p.x), std::min(item_.low.y, p.y), std::min(item_.low.z, p.z)};
+    item_.high = {std::max(item_.high.x, p.x), std::max(item_.high.y, p.y), std::max(item_.high.z, p.z)};
   }
 }
 

@@ -4,6 +4,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 
@@ -47,6 +48,12 @@ EGLDisplay surfaceless_display() {
 }
 
 }  // namespace
+
+bool Context::is_software() const {
+  constexpr std::array<std::string_view, 3> kSoftware{"llvmpipe", "softpipe", "SwiftShader"};
+  return std::ranges::any_of(kSoftware,
+                             [&](std::string_view name) { return description_.find(name) != std::string::npos; });
+}
 
 int Context::error_count() { return errors; }
 

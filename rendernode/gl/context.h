@@ -36,6 +36,9 @@ class Context {
   // Vendor, renderer and version, for reports.
   const std::string& description() const { return description_; }
 
+  // Whether the renderer is one that is known to draw on the CPU.
+  bool is_software() const;
+
   // GL errors that the debug output has reported so far; tests want 0.
   static int error_count();
 

@@ -1,6 +1,8 @@
 // Making GL objects.
 #include "rendernode/gl/objects.h"
 
+#include <algorithm>
+
 #include "base/check.h"
 
 namespace lfd::gl {
@@ -30,6 +32,19 @@ Texture make_array_texture(GLenum internal_format, ImageSize size, int layers, i
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, levels > 1 ? GL_LINEAR : GL_NEAREST);
   return Texture(name);
+}
+
+Texture make_buffer_texture(GLenum internal_format, const Buffer& buffer) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+  glTextureBuffer(name, internal_format, buffer.name());
+  return Texture(name);
+}
+
+std::size_t most_texels() {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  return static_cast<std::size_t>(std::max(most, 0));
 }
 
 Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth) {

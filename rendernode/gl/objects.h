@@ -16,6 +16,10 @@ Query make_query(GLenum target);
 // A two-dimensional array texture without content.
 Texture make_array_texture(GLenum internal_format, ImageSize size, int layers, int levels = 1);
 
+// A buffer as texels, which is to outlive it. At most most_texels() of them can be read.
+Texture make_buffer_texture(GLenum internal_format, const Buffer& buffer);
+std::size_t most_texels();
+
 // A framebuffer over all layers of these array textures: color attachment i is colors[i]; depth may be 0.
 Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth);
 

@@ -86,7 +86,6 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   bind(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_params_);
   bind(GL_UNIFORM_BUFFER, BINDING_AO, ao_params_);
   bind(GL_UNIFORM_BUFFER, BINDING_AO_SAMPLES, ao_samples_);
-  bind(GL_SHADER_STORAGE_BUFFER, BINDING_PLANES, in.geometry.planes);
   bind(GL_SHADER_STORAGE_BUFFER, BINDING_MATERIALS, in.materials.params);
   bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS, in.lights.params);
   bind(GL_SHADER_STORAGE_BUFFER, BINDING_LAYERS, commands.layers);
@@ -94,6 +93,7 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   glVertexArrayVertexBuffer(surface_array_.name(), 1, commands.records.name(), 0, sizeof(shared::DrawRecord));
   glVertexArrayElementBuffer(surface_array_.name(), in.geometry.indices.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.commands.name());
+  bind_texture(UNIT_PLANES, in.geometry.plane_texels.name());
   if (in.modules.has_tables()) bind_texture(UNIT_PIXEL_TABLE, in.modules.pixel_tables.name());
   if (in.modules.warp_tables) bind_texture(UNIT_WARP_TABLE, in.modules.warp_tables.name());
   if (!in.modules.colors) return;

@@ -37,8 +37,15 @@ shared::LightParams params_of(const proto::Light& light, const RegionOfInterest&
 
 }  // namespace
 
+std::size_t most_triangles() {
+  constexpr std::size_t kTexelsEach = sizeof(shared::PrimitivePlane) / sizeof(glm::vec4);
+  return std::min(kMostTriangles, gl::most_texels() / kTexelsEach);
+}
+
 GpuGeometry upload_geometry(const PhysicalGeometry& geometry) {
-  return {gl::make_buffer(geometry.vertices), gl::make_buffer(geometry.indices), gl::make_buffer(geometry.planes)};
+  gl::Buffer planes = gl::make_buffer(geometry.planes);
+  gl::Texture texels = gl::make_buffer_texture(GL_RGBA32F, planes);
+  return {gl::make_buffer(geometry.vertices), gl::make_buffer(geometry.indices), std::move(planes), std::move(texels)};
 }
 
 GpuLights upload_lights(const proto::Scene& scene, const RegionOfInterest& roi) {

@@ -33,7 +33,11 @@ Result<GpuMaterials> upload_materials(const proto::Scene& scene, const Assets& a
 // Triangles in physical space. Changes with the region of interest and with moving instances.
 struct GpuGeometry {
   gl::Buffer vertices, indices, planes;
+  gl::Texture plane_texels;  // the planes, one texel for each of their vectors
 };
+
+// What fits into the texels of the planes.
+std::size_t most_triangles();
 
 GpuGeometry upload_geometry(const PhysicalGeometry& geometry);
 

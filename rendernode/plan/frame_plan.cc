@@ -128,13 +128,15 @@ class Planner {
   }
 
   // The prepass pays where a hidden fragment would cost texture fetches. That is a rule for GPUs, which it has not been
-  // measured on yet. On the software rasteriser it always costs: 7 % of a frame of Sponza, 24 % of the ribbed shell, 48
-  // % where nothing is textured (bench/results/frame-llvmpipe.md).
+  // measured on yet. Software rasterisers pay for the vertices twice: 7 % of a frame of Sponza, 24 % of the ribbed
+  // shell, 48 % where nothing is textured (bench/results/frame-llvmpipe.md).
   void choose_prepass(bool any, bool textured) {
-    plan_.z_prepass = everything_ || (any && textured);
-    if (!plan_.z_prepass)
-      leave_out("pass", "z_prepass",
-                any ? "no texture is fetched: hidden fragments are cheap" : "no module sees geometry");
+    plan_.z_prepass = everything_ || (any && textured && !in_.is_software);
+    if (plan_.z_prepass) return;
+    leave_out("pass", "z_prepass",
+              !any        ? "no module sees geometry"
+              : !textured ? "no texture is fetched: hidden fragments are cheap"
+                          : "a software rasteriser pays more for vertices than for hidden fragments");
   }
 
   const PlanInputs& in_;

@@ -51,6 +51,7 @@ struct PlanInputs {
   // A hash of what every module's picture depends on: region of interest, settings, materials, lights.
   std::string shared = {};
   const std::vector<std::string>* drawn = nullptr;  // FramePlan::inputs of the images in hand; null: there are none
+  bool is_software = false;                         // a rasteriser on the CPU draws
 };
 
 // Draws that one shader variant with one set of textures can make in one submission.

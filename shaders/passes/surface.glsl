@@ -1,7 +1,7 @@
 // What both geometry passes do per pixel: the pixel's own line meets the triangle's plane. Needs lib/optics.glsl, lib/image_map.glsl.
 
 layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
-layout(std430, binding = BINDING_PLANES) readonly buffer Planes { PrimitivePlane planes[]; };
+layout(binding = UNIT_PLANES) uniform samplerBuffer planes;  // array of PrimitivePlane: software rasterisers read texels faster
 layout(binding = UNIT_TEXTURE) uniform sampler2DArray base_color_texture;
 #ifdef PIXEL_TABLE
 layout(binding = UNIT_PIXEL_TABLE) uniform sampler2DArray pixel_table;
@@ -17,10 +17,11 @@ vec2 screen_of_pixel(ModuleParams m, vec2 pixel) {
 // The t at which R(t) = start + t direction is on the triangle's plane, brought back to where the line leaves the scene's triangle.
 // A rasteriser's corners are off by up to a hundredth of a pixel: it finds a triangle on pixels whose line passes just beside it, and
 // where the triangle is grazed its plane lies far from it there. (Not of the piece that is drawn: pieces share the plane.)
-float keep_in_triangle(PrimitivePlane plane, vec3 start, vec3 direction, float t) {
-  vec3 at_start = vec3(dot(plane.inside_0, vec4(start, 1.0)), dot(plane.inside_1, vec4(start, 1.0)), plane.range.z);
+float keep_in_triangle(int first_texel, float third, vec3 start, vec3 direction, float t) {
+  vec4 inside_0 = texelFetch(planes, first_texel + 2), inside_1 = texelFetch(planes, first_texel + 3);
+  vec3 at_start = vec3(dot(inside_0, vec4(start, 1.0)), dot(inside_1, vec4(start, 1.0)), third);
   at_start.z -= at_start.x + at_start.y;
-  vec3 growth = vec3(dot(plane.inside_0.xyz, direction), dot(plane.inside_1.xyz, direction), 0.0);
+  vec3 growth = vec3(dot(inside_0.xyz, direction), dot(inside_1.xyz, direction), 0.0);
   growth.z = -growth.x - growth.y;
   if (all(greaterThanEqual(at_start + t * growth, vec3(0.0)))) return t;
   vec3 crossing = -at_start / growth;
@@ -32,20 +33,23 @@ float keep_in_triangle(PrimitivePlane plane, vec3 start, vec3 direction, float t
 
 // Physical point where the line of a pixel meets the triangle (w: 1 seen from the front, -1 from behind, 0 not at all). Depths are
 // within the limits: on a planar screen triangles were cut there, on a curved one it is decided here.
-vec4 meet(ModuleParams m, PrimitivePlane plane, vec2 limits, vec2 pixel) {
+vec4 meet(ModuleParams m, uint primitive, vec2 limits, vec2 pixel) {
   vec2 s = screen_of_pixel(m, pixel);
   if (!on_screen(m, s)) return vec4(0.0);
   vec3 start = surface_point(m, s), direction = line_direction(m, s);
-  float slope = dot(plane.normal_offset.xyz, direction);
-  float t = (plane.normal_offset.w - dot(plane.normal_offset.xyz, start)) / slope;
+  int texel = 4 * int(primitive);
+  vec4 normal_offset = texelFetch(planes, texel), range_bounds = texelFetch(planes, texel + 1);
+  float slope = dot(normal_offset.xyz, direction);
+  float t = (normal_offset.w - dot(normal_offset.xyz, start)) / slope;
+  bool is_grazed = slope * slope < range_bounds.w * dot(direction, direction);
   if (is_curved(m)) {
     if (slope == 0.0) return vec4(0.0);
-    t = keep_in_triangle(plane, start, direction, t);
+    if (is_grazed) t = keep_in_triangle(texel, range_bounds.z, start, direction, t);
     if (!(t * m.observer.y >= limits.x && t * m.observer.y <= limits.y)) return vec4(0.0);
   } else {
-    vec2 range = plane.range.xy / m.observer.y;
+    vec2 range = range_bounds.xy / m.observer.y;
     t = clamp(slope == 0.0 ? range.y : t, range.x, range.y);
-    t = clamp(keep_in_triangle(plane, start, direction, t), range.x, range.y);
+    if (is_grazed) t = clamp(keep_in_triangle(texel, range_bounds.z, start, direction, t), range.x, range.y);
   }
   return vec4(start + t * direction, slope >= 0.0 ? 1.0 : -1.0);
 }
@@ -61,7 +65,7 @@ vec4 point_of_fragment(ModuleParams m, uint primitive, vec2 limits) {
 }
 #else
 vec4 point_of_fragment(ModuleParams m, uint primitive, vec2 limits) {
-  return meet(m, planes[primitive], limits, gl_FragCoord.xy);
+  return meet(m, primitive, limits, gl_FragCoord.xy);
 }
 #endif
 

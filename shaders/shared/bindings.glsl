@@ -5,7 +5,6 @@
 #define MODULES_PER_NODE 256
 #define AO_MOST_SAMPLES 256
 #define BINDING_MODULES 0
-#define BINDING_PLANES 1
 #define BINDING_MATERIALS 2
 #define BINDING_FRAME 3
 #define BINDING_LIGHTS 4
@@ -21,3 +20,4 @@
 #define UNIT_NORMAL 4
 #define UNIT_AO 5
 #define UNIT_WARP_TABLE 6
+#define UNIT_PLANES 7

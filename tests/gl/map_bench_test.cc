@@ -65,7 +65,7 @@ TEST(MapBench, ComparesTableSizesOfMeasuredMaps) {
 
 TEST(MapBench, NamesWhatAWayMisses) {
   MapTable table;
-  table.renderer = "llvmpipe";
+  table.is_software = true;
   MapRow row;
   row.scene = "first";
   row.variant = "a";

@@ -37,7 +37,8 @@ class FramePlanning : public testing::Test {
   }
 
   FramePlan plan() const {
-    return plan_frame({&display_, &modules_, &items_, &materials_, lights_, settings_, buffers_, shared_, drawn_});
+    return plan_frame(
+        {&display_, &modules_, &items_, &materials_, lights_, settings_, buffers_, shared_, drawn_, is_software_});
   }
 
   static const proto::LeftOut* left_out(const FramePlan& plan, const std::string& what, const std::string& which) {
@@ -58,6 +59,7 @@ class FramePlanning : public testing::Test {
   LightFacts lights_{true, true};
   RenderSettings settings_;
   BufferSet buffers_;
+  bool is_software_ = false;
   std::string shared_;
   const std::vector<std::string>* drawn_ = nullptr;
 };
@@ -141,6 +143,15 @@ TEST_F(FramePlanning, WithoutTexturesThereIsNoPrepass) {
   EXPECT_FALSE(p.z_prepass);
   EXPECT_EQ(why(p, "pass", "z_prepass"), "no texture is fetched: hidden fragments are cheap");
   EXPECT_EQ(why(p, "texture", "base colour"), "no material has one");
+}
+
+TEST_F(FramePlanning, OnTheCpuThereIsNoPrepassEither) {
+  materials_[0].texture_group = 0;
+  EXPECT_TRUE(plan().z_prepass);
+  is_software_ = true;
+  EXPECT_EQ(why(plan(), "pass", "z_prepass"), "a software rasteriser pays more for vertices than for hidden fragments");
+  settings_.plan = false;
+  EXPECT_TRUE(plan().z_prepass);
 }
 
 TEST_F(FramePlanning, UnlitScenesNeedNeitherOcclusionNorLights) {
