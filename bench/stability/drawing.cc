@@ -81,6 +81,17 @@ StabilityCase drawn_true(std::string group, std::string name, std::function<Draw
           }};
 }
 
+StabilityCase drawn_finite(std::string group, std::string name, std::function<Drawing()> make) {
+  return {std::move(group), std::move(name), "something is drawn; all finite",
+          [make = std::move(make)](const gl::Context& context) -> Outcome {
+            const auto drawn = draw(context, make());
+            if (!drawn) return {"error: " + drawn.error().message(), 0, false};
+            const std::size_t pixels = drawn->truth.in_both + drawn->truth.only_in_rendered;
+            const bool passed = drawn->fault.empty() && pixels > 0;
+            return {fmt::format("{} pixels with a surface{}{}", pixels, passed ? "" : "; ", drawn->fault), 0, passed};
+          }};
+}
+
 StabilityCase drawing_refused(std::string group, std::string name, const std::string& words,
                               std::function<Drawing()> make) {
   return {std::move(group), std::move(name), fmt::format("error: \"{}\"", words),

@@ -43,6 +43,9 @@ Result<Drawn> draw(const gl::Context& context, const Drawing& drawing);
 StabilityCase drawn_true(std::string group, std::string name, std::function<Drawing()> make,
                          const PictureBounds& bounds = {});
 
+// Passes where something is drawn and no buffer has a number that is not finite: of maps that no picture is true for.
+StabilityCase drawn_finite(std::string group, std::string name, std::function<Drawing()> make);
+
 // Passes where the renderer refuses with these words.
 StabilityCase drawing_refused(std::string group, std::string name, const std::string& words,
                               std::function<Drawing()> make);

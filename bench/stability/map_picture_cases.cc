@@ -67,6 +67,13 @@ void add_grids(StabilityCases& cases) {
   for (const auto& [name, nodes] : no_maps) {
     cases.push_back(not_accepted(name, "folded", [nodes = nodes] { return through_grid(nodes); }));
   }
+  // What is shown all the same, because the controller was told to.
+  cases.push_back(
+      drawn_finite(kGroup, "grid folded twice: shown all the same", [] { return through_grid(folded(bent_nodes())); }));
+  cases.push_back(drawing_refused(kGroup, "grid with one node thrown far across its neighbours: shown all the same",
+                                  "the grid bends too sharply", [] {
+                                    return through_grid(with_node({0.19, -0.14}));
+                                  }));
 }
 
 void add_lenses(StabilityCases& cases) {
@@ -76,6 +83,7 @@ void add_lenses(StabilityCases& cases) {
       drawn_true(kGroup, "lens with k1 = -2.2: turns back in the corners", [] { return through(lens(-2.2)); }));
   cases.push_back(drawn_true(kGroup, "lens with k1 = -10: turns back in mid-image", [] { return through(lens(-10)); }));
   cases.push_back(drawn_true(kGroup, "lens with k1 = 3", [] { return through(lens(3)); }));
+  cases.push_back(drawn_true(kGroup, "lens with k1 = 1e6", [] { return through(lens(1e6)); }));
   cases.push_back(drawn_true(kGroup, "lens with p1 = 0.02, p2 = -0.01", [] { return through(lens(0, 0.02, -0.01)); }));
   cases.push_back(drawn_true(kGroup, "lens with p1 = 0.8, p2 = -0.6: turns back sideways",
                              [] { return through(lens(0, 0.8, -0.6)); }));

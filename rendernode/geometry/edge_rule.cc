@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <tuple>
@@ -14,8 +15,9 @@ namespace {
 
 constexpr int kSlices = 64;
 constexpr double kAlongFactor = 20;
-constexpr double kBendMargin = 2;      // the bend is sampled, not proven
-constexpr double kUnseenEdge = 0.25;   // of the screen's width: shorter edges without any place are not looked into
+constexpr double kBendMargin = 2;     // the bend is sampled, not proven
+constexpr double kUnseenEdge = 0.25;  // of the screen's width: shorter edges that seem out of sight are believed to be
+constexpr double kImageMargin_px = 2;
 constexpr double kScreenMargin = 1.1;  // edges this far beside the screen cannot be seen
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -25,6 +27,21 @@ bool beside(ScreenSize screen, ScreenPoint a, ScreenPoint b) {
   const double x = kScreenMargin * 0.5 * screen.width_m, y = kScreenMargin * 0.5 * screen.height_m;
   return (a.x > x && b.x > x) || (a.x < -x && b.x < -x) || (a.y > y && b.y > y) || (a.y < -y && b.y < -y);
 }
+
+// Smallest and largest pixel coordinates along an edge.
+struct Extent {
+  glm::dvec2 low{kInfinity}, high{-kInfinity};
+
+  void take(glm::dvec2 pixel) {
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  // All of it is beside the same border of the image.
+  bool is_beside(ImageSize image, double margin_px) const {
+    return high.x < -margin_px || high.y < -margin_px || low.x > image.width + margin_px ||
+           low.y > image.height + margin_px;
+  }
+};
 
 }  // namespace
 
@@ -40,28 +57,36 @@ EdgeRule::EdgeRule(const DisplayCalibration& display, const std::vector<std::uin
   measure_bend();
 }
 
-double EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
+EdgeRule::Deviation EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
   const auto clip_a = map.clip_from_physical(a), clip_b = map.clip_from_physical(b);
   if (!clip_a && !clip_b) {
     // On a curved screen the middle of an edge may be seen between two ends that have no ray.
     const bool may_be_seen_between = map.is_curved() && length(b - a) > kUnseenEdge * display_->screen.width_m;
-    return may_be_seen_between ? kInfinity : 0;
+    return {may_be_seen_between ? kInfinity : 0, false};
   }
-  if (!clip_a || !clip_b) return kInfinity;
+  if (!clip_a || !clip_b) return {kInfinity, false};
   const glm::dvec2 edge = glm::dvec2(*clip_b) / clip_b->z - glm::dvec2(*clip_a) / clip_a->z;
   const double edge_px = glm::length(edge);
   const glm::dvec2 along = edge_px > 0 ? edge / edge_px : glm::dvec2(1, 0);
-  double worst = 0;
+  double worst = 0, farthest_px = 0;
+  Extent extent;
+  extent.take(glm::dvec2(*clip_a) / clip_a->z);
+  extent.take(glm::dvec2(*clip_b) / clip_b->z);
   for (const double t : {0.5, 0.25, 0.75}) {
     const Point3<Physical> p{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
     const auto truly = map.clip_from_physical(p);
-    if (!truly) return kInfinity;
+    if (!truly) return {kInfinity, false};
     const ClipPoint drawn = (1 - t) * *clip_a + t * *clip_b;
-    const glm::dvec2 off = glm::dvec2(*truly) / truly->z - glm::dvec2(drawn) / drawn.z;
+    const glm::dvec2 pixel = glm::dvec2(*truly) / truly->z, off = pixel - glm::dvec2(drawn) / drawn.z;
+    extent.take(pixel);
+    farthest_px = std::max(farthest_px, glm::length(off));
     const double beside_px = std::abs(off.x * along.y - off.y * along.x);
     worst = std::max({worst, beside_px, std::abs(glm::dot(off, along)) / kAlongFactor});
   }
-  return worst / tolerance_px_;
+  // Beside the image by more than it bends: it is not seen, and need not be true. (A lens may throw all but the middle
+  // of the screen far beside its image, stretched a million times.)
+  const bool is_short = length(b - a) <= kUnseenEdge * display_->screen.width_m;
+  return {worst / tolerance_px_, is_short && extent.is_beside(display_->image, farthest_px + kImageMargin_px)};
 }
 
 double EdgeRule::beside_m() const {
@@ -80,7 +105,8 @@ double EdgeRule::deviation(Point3<Physical> a, Point3<Physical> b) const {
   double worst = 0;
   for (const auto& map : maps_) {
     if (is_beside(map, a, b)) continue;
-    worst = std::max(worst, deviation_in(map, a, b));
+    const Deviation found = deviation_in(map, a, b);
+    if (!found.is_beside_image) worst = std::max(worst, found.tolerances);
   }
   return worst;
 }
@@ -101,7 +127,8 @@ bool EdgeRule::must_split(Point3<Physical> a, Point3<Physical> b) const {
   if (bend_between(a.z, b.z) * dot(d, d) <= 1) return false;
   for (const auto& map : maps_) {
     if (is_beside(map, a, b)) continue;
-    if (deviation_in(map, a, b) > 1) return true;
+    const Deviation found = deviation_in(map, a, b);
+    if (found.tolerances > 1 && !found.is_beside_image) return true;
   }
   return false;
 }
@@ -146,7 +173,7 @@ double EdgeRule::steepest_bend_at(double z) const {
                                  0.5 * display_->screen.height_m * y * (1 - z / vz), z};
         for (const auto& d : kDirections) {
           const Vector3<Physical> v{step * d[0], step * d[1], step * d[2]};
-          const double found = deviation_in(maps_[k], p, p + v);
+          const double found = deviation_in(maps_[k], p, p + v).tolerances;
           if (std::isfinite(found)) steepest = std::max(steepest, found / dot(v, v));
         }
       }

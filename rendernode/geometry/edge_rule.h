@@ -32,7 +32,11 @@ class EdgeRule {
 
  private:
   bool is_beside(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
-  double deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
+  struct Deviation {
+    double tolerances = 0;
+    bool is_beside_image = false;  // it is not seen, however it is drawn
+  };
+  Deviation deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
   double bend_between(double z0, double z1) const;
   void lay_slices();
   void measure_bend();
