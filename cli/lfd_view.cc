@@ -1,5 +1,4 @@
 // lfd view: what a viewer in front of the display sees.
-
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>

@@ -58,11 +58,11 @@ EdgeRule::EdgeRule(const DisplayCalibration& display, const std::vector<std::uin
 }
 
 EdgeRule::Deviation EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
+  const bool is_short = length(b - a) <= kUnseenEdge * display_->screen.width_m;
   const auto clip_a = map.clip_from_physical(a), clip_b = map.clip_from_physical(b);
   if (!clip_a && !clip_b) {
     // On a curved screen the middle of an edge may be seen between two ends that have no ray.
-    const bool may_be_seen_between = map.is_curved() && length(b - a) > kUnseenEdge * display_->screen.width_m;
-    return {may_be_seen_between ? kInfinity : 0, false};
+    return {map.is_curved() && !is_short ? kInfinity : 0, false};
   }
   if (!clip_a || !clip_b) return {kInfinity, false};
   const glm::dvec2 edge = glm::dvec2(*clip_b) / clip_b->z - glm::dvec2(*clip_a) / clip_a->z;
@@ -85,7 +85,6 @@ EdgeRule::Deviation EdgeRule::deviation_in(const ClipMap& map, Point3<Physical> 
   }
   // Beside the image by more than it bends: it is not seen, and need not be true. (A lens may throw all but the middle
   // of the screen far beside its image, stretched a million times.)
-  const bool is_short = length(b - a) <= kUnseenEdge * display_->screen.width_m;
   return {worst / tolerance_px_, is_short && extent.is_beside(display_->image, farthest_px + kImageMargin_px)};
 }
 
@@ -101,13 +100,15 @@ bool EdgeRule::is_beside(const ClipMap& map, Point3<Physical> a, Point3<Physical
   return at_a && at_b && beside(display_->screen, at_a->at, at_b->at);
 }
 
+double EdgeRule::seen_deviation(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const {
+  if (is_beside(map, a, b)) return 0;
+  const Deviation found = deviation_in(map, a, b);
+  return found.is_beside_image ? 0 : found.tolerances;
+}
+
 double EdgeRule::deviation(Point3<Physical> a, Point3<Physical> b) const {
   double worst = 0;
-  for (const auto& map : maps_) {
-    if (is_beside(map, a, b)) continue;
-    const Deviation found = deviation_in(map, a, b);
-    if (!found.is_beside_image) worst = std::max(worst, found.tolerances);
-  }
+  for (const auto& map : maps_) worst = std::max(worst, seen_deviation(map, a, b));
   return worst;
 }
 
@@ -125,12 +126,7 @@ bool EdgeRule::must_split(Point3<Physical> a, Point3<Physical> b) const {
   if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) std::swap(a, b);
   const Vector3<Physical> d = b - a;
   if (bend_between(a.z, b.z) * dot(d, d) <= 1) return false;
-  for (const auto& map : maps_) {
-    if (is_beside(map, a, b)) continue;
-    const Deviation found = deviation_in(map, a, b);
-    if (found.tolerances > 1 && !found.is_beside_image) return true;
-  }
-  return false;
+  return std::ranges::any_of(maps_, [&](const ClipMap& map) { return seen_deviation(map, a, b) > 1; });
 }
 
 // Even steps of log((vz - z) / (z - singular)): however far the emitters stand, the space about the screen has many.

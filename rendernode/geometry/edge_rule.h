@@ -37,6 +37,7 @@ class EdgeRule {
     bool is_beside_image = false;  // it is not seen, however it is drawn
   };
   Deviation deviation_in(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;
+  double seen_deviation(const ClipMap& map, Point3<Physical> a, Point3<Physical> b) const;  // 0 where it is not seen
   double bend_between(double z0, double z1) const;
   void lay_slices();
   void measure_bend();

@@ -122,7 +122,7 @@ void TriangleFeed::add_cut(const Triangle& triangle, const shared::PrimitivePlan
     cut(polygon, axis, limits_.high.*axis, -1);
     cut(polygon, axis, limits_.low.*axis, 1);
   }
-  if (polygon.empty()) return;
+  if (polygon.size() < 3) return;
   const std::uint32_t first = append(polygon[0]);
   std::uint32_t last = append(polygon[1]);
   for (std::size_t i = 2; i < polygon.size(); ++i) {
