@@ -47,7 +47,8 @@ struct Door {
 const std::vector<Door>& doors() {
   static const std::vector<Door> kDoors{
       {{"CLI/"}, {"base/command_line.h"}},
-      {{"spdlog/"}, {"base/log."}},
+      {{"spdlog/"}, {"base/log.cc"}},
+      {{"fmt/"}, {"base/log.h"}},
       {{"xxhash.h"}, {"base/hash.cc"}},
       {{"zmq"}, {"proto/wire/"}},
       {{"google/protobuf/text_format.h", "google/protobuf/io/tokenizer.h", "google/protobuf/descriptor.h"},
