@@ -48,6 +48,8 @@ std::string explain_unknown(const CLI::App& app, int argc, const char* const* ar
     if (argument.starts_with("-") && argument.size() > 1) {
       const std::string name = argument.substr(0, argument.find('='));
       const CLI::Option* option = command->get_option_no_throw(name);
+      for (const CLI::App* at = command; option == nullptr && at->get_fallthrough() && at->get_parent() != nullptr;)
+        option = (at = at->get_parent())->get_option_no_throw(name);
       if (option != nullptr) {
         if (name == argument) i += option->get_items_expected_min();
       } else if (name.starts_with("--")) {

@@ -64,7 +64,7 @@ Status validate_module(const DisplayCalibration& display, const ModuleCalibratio
 
 }  // namespace
 
-Status validate(const DisplayCalibration& display) {
+Status validate_without_modules(const DisplayCalibration& display) {
   for (const auto& [name, value, limits] :
        {std::tuple{"screen: width_m", display.screen.width_m, kScreenSide_m},
         {"screen: height_m", display.screen.height_m, kScreenSide_m},
@@ -85,6 +85,11 @@ Status validate(const DisplayCalibration& display) {
     return Error(fmt::format("screen: width_m: {} is more than half of the cylinder's circumference, {:.6g}",
                              display.screen.width_m, std::numbers::pi * radius));
   }
+  return {};
+}
+
+Status validate(const DisplayCalibration& display) {
+  LFD_TRY_STATUS(validate_without_modules(display));
   if (display.modules.empty() || display.modules.size() > kMaxModules) {
     return Error(fmt::format("module: {} of them; 1 to {} are possible", display.modules.size(), kMaxModules));
   }

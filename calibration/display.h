@@ -44,6 +44,8 @@ inline constexpr int kMaxImageSide_px = 8192;
 
 // Checks every number; an error names the module and the field ("module 3: focal_u_px: ...").
 Status validate(const DisplayCalibration& display);
+// The same but for the modules, of which there may be none.
+Status validate_without_modules(const DisplayCalibration& display);
 
 // The module's map alone. Absent where the point is off the screen, has no pixel, or lands outside the image.
 std::optional<PixelPoint> image_from_screen(const DisplayCalibration& display, const ModuleCalibration& module,

@@ -103,9 +103,11 @@ Status validate(const Optics& optics) {
 }
 
 Status validate(const Emitter& emitter) {
-  if (!is_finite(emitter)) return Error("emitter: must be finite");
+  for (const auto& [name, value] : {std::pair{"x", emitter.x}, std::pair{"y", emitter.y}, std::pair{"z", emitter.z}}) {
+    if (!std::isfinite(value)) return Error(fmt::format("emitter: {}: {} must be finite", name, value));
+  }
   if (!(emitter.z < 0))
-    return Error(fmt::format("emitter: z = {} must be negative: it stands behind the screen", emitter.z));
+    return Error(fmt::format("emitter: z: {} must be negative: it stands behind the screen", emitter.z));
   LFD_TRY_STATUS(check_magnitude("emitter: x", emitter.x, kPlace_m));
   LFD_TRY_STATUS(check_magnitude("emitter: y", emitter.y, kPlace_m));
   return check_magnitude("emitter: z", emitter.z, kEmitterDistance_m);

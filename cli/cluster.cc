@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::string_view kEndpointLine = "lfd-controller: control ";
 constexpr auto kBindPatience = std::chrono::seconds(10);
+constexpr auto kLook = std::chrono::milliseconds(100);  // between looks at signals
+
+bool has_come(const StopSignals& signals) {
+  pollfd descriptor{.fd = signals.descriptor(), .events = POLLIN, .revents = 0};
+  return ::poll(&descriptor, 1, 0) == 1;
+}
 
 void print_line(const std::string& name, std::string_view line) {
   if (line.starts_with(kErrorMark)) return;
@@ -85,14 +91,21 @@ Status Cluster::add(const ClusterOptions& options, const std::string& name, std:
   return {};
 }
 
-Result<Cluster> Cluster::start(const ClusterOptions& options) {
+Result<Cluster> Cluster::start(const ClusterOptions& options, const StopSignals& signals) {
   Cluster cluster;
   LFD_TRY(cluster.deployment_, load_deployment(options));
   LFD_TRY(const std::set<int> wanted, wanted_modules(options, cluster.deployment_));
 
   LFD_TRY_STATUS(cluster.add(options, "controller", controller_command(options)));
   Process& controller = *cluster.processes_.front();
-  const auto line = controller.wait_for_line(kEndpointLine, kBindPatience);
+  std::optional<std::string> line;
+  const auto deadline = Clock::now() + kBindPatience;
+  while (!line && !controller.poll() && Clock::now() < deadline) {
+    line = controller.wait_for_line(kEndpointLine, kLook);
+    if (line || !has_come(signals)) continue;
+    controller.stop(kStopPatience);
+    return Error("ended by a signal before the controller was there");
+  }
   if (!line) {
     controller.stop(kStopPatience);
     return Error(last_words(controller)).within("controller");

@@ -1,4 +1,5 @@
 // lfd-calibrate export: calibrations written for other programs.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -31,6 +32,11 @@ int run_export(const ExportOptions& options) {
   if (!options.size.empty()) size = ImageSize{options.size[0], options.size[1]};
   const auto archive = export_mpcdi(*display, size);
   if (!archive) return fail(archive.error().within(options.file));
+  const auto coloured =
+      std::ranges::count_if(display->modules, [](const auto& module) { return module.color.has_value(); });
+  if (coloured > 0)
+    log::warn("the colour calibration of {} modules is left out: import --like {} takes it over again", coloured,
+              options.file);
   const auto status = write_file(options.out, *archive);
   return status ? kExitDone : fail(status.error());
 }

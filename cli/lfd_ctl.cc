@@ -12,6 +12,7 @@
 #include "cli/status_table.h"
 #include "proto/endpoint.h"
 #include "proto/settings.h"
+#include "proto/state.h"
 
 namespace lfd {
 namespace {
@@ -31,6 +32,8 @@ struct Arguments {
   std::optional<double> ao_radius_m, ao_shell, ao_sigma_px;
   std::optional<int> ao_samples, ao_radii;
   std::string ao_generator, ao_target;
+  std::optional<std::uint32_t> ao_seed;
+  std::vector<double> ao_curve;
 };
 
 CLI::Validator endpoint_text() {
@@ -120,6 +123,12 @@ void merge_ao(const Arguments& arguments, Ao& ao) {
   if (arguments.ao_radii) ao.set_radii(*arguments.ao_radii);
   if (arguments.ao_symmetric) ao.set_point_symmetric(*arguments.ao_symmetric);
   if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
+  if (arguments.ao_seed) ao.set_seed(*arguments.ao_seed);
+  if (!arguments.ao_curve.empty()) {
+    ao.mutable_curve()->set_a(arguments.ao_curve[0]);
+    ao.mutable_curve()->set_b(arguments.ao_curve[1]);
+    ao.mutable_curve()->set_c(arguments.ao_curve[2]);
+  }
   if (arguments.ao_sigma_px) ao.mutable_blur()->set_sigma_px(*arguments.ao_sigma_px);
   if (!arguments.ao_generator.empty()) ao.set_generator(kGenerators.at(arguments.ao_generator));
   if (!arguments.ao_target.empty()) ao.set_target(kTargets.at(arguments.ao_target));
@@ -130,6 +139,10 @@ Status change_ao(const Arguments& arguments) {
   proto::Request request;
   *request.mutable_ao() = status.render().ao();
   merge_ao(arguments, *request.mutable_ao());
+  if (same_message(request.ao(), status.render().ao())) {  // nothing was given, or nothing else than is there
+    std::cout << ao_text(status.render().ao());
+    return {};
+  }
   LFD_TRY(const proto::Reply reply, ask(arguments, request));
   return {};
 }
@@ -139,6 +152,8 @@ Status change_scene(const Arguments& arguments) {
   proto::Request request;
   request.set_scene_file(std::filesystem::absolute(arguments.scene, failure).string());
   LFD_TRY(const proto::Reply reply, ask(arguments, request, kLoadPatience));
+  LFD_TRY(const proto::Status status, ask_status(arguments));
+  for (const std::string& warning : status.scene_warning()) std::cerr << "warning: " << warning << "\n";
   return {};
 }
 
@@ -159,6 +174,8 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   command.add_option("--target", a.ao_target, "What is darkened")->check(CLI::IsMember(names_of(kTargets)));
   add_switch(command, "--symmetric", "--no-symmetric", a.ao_symmetric, "Samples in pairs that mirror each other");
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
+  command.add_option("--seed", a.ao_seed, "Of the samples");
+  add_numbers(command, "--curve", a.ao_curve, "A,B,C", "Post curve: ao' = 1 - clamp(B ((1 - ao) + A), 0, 1)^C");
   command.add_option("--sigma", a.ao_sigma_px, "Of the blur, pixels")->check(number_within(0.1, 8));
 }
 
@@ -190,7 +207,7 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
                   "Unit quaternion that turns the box's axes into the world's (default: as it is)");
   roi->add_flag("--whole", a.whole, "Show the whole scene, unturned, fitted to the screen")
       ->excludes(world, physical, orientation);
-  add_ao_options(*add("ao", "Change ambient occlusion; what is not given stays", change_ao), a);
+  add_ao_options(*add("ao", "Change ambient occlusion, or print it; what is not given stays", change_ao), a);
   add("scene", "Show another scene; if it cannot be loaded the old one stays", change_scene)
       ->add_option("FILE", a.scene, "glTF file, as the controller's machine sees it")
       ->required();

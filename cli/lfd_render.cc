@@ -1,5 +1,7 @@
 // lfd render: draws frames into files, reports, and leaves.
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "base/file.h"
@@ -17,9 +19,13 @@ constexpr auto kLook = std::chrono::milliseconds(100);  // between looks at sign
 constexpr auto kProgress = std::chrono::seconds(2);     // between lines of progress
 constexpr auto kWriteOut = std::chrono::seconds(30);    // for the display to end after the last frame
 
-proto::Request frames_request(const RenderOptions& options) {
+// How many frames are asked for at a time: their reports come in one message, which holds about a thousand module
+// reports per MiB.
+constexpr std::uint32_t kModuleReportsPerRequest = 32000;
+
+proto::Request frames_request(const RenderOptions& options, std::uint32_t count) {
   proto::Request request;
-  request.mutable_frames()->set_count(options.frames);
+  request.mutable_frames()->set_count(count);
   request.mutable_frames()->set_buffers(options.buffers);
   request.mutable_frames()->set_time_modules(options.time_modules);
   return request;
@@ -52,20 +58,20 @@ Status still_running(Cluster& cluster, StopSignals& signals) {
 }
 
 // Sends the request once the controller is there, while it watches the children and the signals; its number.
-Result<std::uint64_t> send_request(const RenderOptions& options, Cluster& cluster, ControlClient& client,
+Result<std::uint64_t> send_request(const proto::Request& request, Cluster& cluster, ControlClient& client,
                                    StopSignals& signals) {
   const auto deadline = Clock::now() + kAnswerPatience;
   while (true) {
-    const auto id = client.send(frames_request(options), kLook);
+    const auto id = client.send(request, kLook);
     if (id || Clock::now() >= deadline) return id;
     LFD_TRY_STATUS(still_running(cluster, signals));
   }
 }
 
-// Waits for the reply to the frames request, while it watches the children and the signals.
-Result<proto::Reply> await_frames(const RenderOptions& options, Cluster& cluster, ControlClient& client,
-                                  ControlClient& watcher, StopSignals& signals) {
-  LFD_TRY(const std::uint64_t id, send_request(options, cluster, client, signals));
+// Asks for `count` frames and waits for the reply, while it watches the children and the signals.
+Result<proto::Reply> await_frames(const RenderOptions& options, std::uint32_t count, Cluster& cluster,
+                                  ControlClient& client, ControlClient& watcher, StopSignals& signals) {
+  LFD_TRY(const std::uint64_t id, send_request(frames_request(options, count), cluster, client, signals));
   auto next_progress = Clock::now() + kProgress;
   std::string last;
   while (true) {
@@ -118,10 +124,18 @@ Status check_images(const RenderOptions& options, const Cluster& cluster,
 Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals) {
   LFD_TRY(ControlClient client, ControlClient::connect(cluster.endpoint()));
   LFD_TRY(ControlClient watcher, ControlClient::connect(cluster.endpoint()));
-  LFD_TRY(const proto::Reply reply, await_frames(options, cluster, client, watcher, signals));
+  std::vector<proto::FrameReport> frames;
+  const auto modules = static_cast<std::uint32_t>(std::max<std::size_t>(1, cluster.modules().size()));
+  const std::uint32_t most = std::max<std::uint32_t>(1, kModuleReportsPerRequest / modules);
+  while (frames.size() < options.frames) {
+    const auto left = options.frames - static_cast<std::uint32_t>(frames.size());
+    LFD_TRY(const proto::Reply reply, await_frames(options, std::min(left, most), cluster, client, watcher, signals));
+    frames.insert(frames.end(), reply.frame().begin(), reply.frame().end());
+    if (reply.frame().empty()) break;
+  }
   LFD_TRY(const proto::Status status, ask_status(watcher));
-  const std::vector<proto::FrameReport> frames(reply.frame().begin(), reply.frame().end());
-  const std::vector<std::string> warnings = warnings_of(frames, cluster.modules().size());
+  std::vector<std::string> warnings(status.scene_warning().begin(), status.scene_warning().end());
+  std::ranges::copy(warnings_of(frames, cluster.modules().size()), std::back_inserter(warnings));
   LFD_TRY_STATUS(write_file(report_path(options.cluster.images),
                             report_json(cluster.deployment(), status.scene(), frames, warnings)));
   LFD_TRY_STATUS(client.quit(kAnswerPatience));
@@ -136,7 +150,7 @@ Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals
 Status render(const RenderOptions& options, StopSignals& signals) {
   ClusterOptions cluster_options = options.cluster;
   cluster_options.idle = true;
-  LFD_TRY(Cluster cluster, Cluster::start(cluster_options));
+  LFD_TRY(Cluster cluster, Cluster::start(cluster_options, signals));
   const Status done = draw(options, cluster, signals);
   cluster.stop(kStopPatience);
   return done;

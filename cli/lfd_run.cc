@@ -14,7 +14,7 @@ constexpr auto kLong = std::chrono::hours(1);  // to wait at a time
 
 Status run(const ClusterOptions& options, StopSignals& signals) {
   LFD_TRY_STATUS(make_runtime_folder());
-  LFD_TRY(Cluster cluster, Cluster::start(options));
+  LFD_TRY(Cluster cluster, Cluster::start(options, signals));
   std::error_code failure;
   const auto full_path = std::filesystem::absolute(options.deployment, failure);
   LFD_TRY(const RuntimeFile file, RuntimeFile::write(cluster.endpoint(), full_path.string()));

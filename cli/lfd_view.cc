@@ -1,8 +1,10 @@
 // lfd view: what a viewer in front of the display sees.
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/file.h"
 #include "base/log.h"
@@ -18,18 +20,31 @@ constexpr auto kViewPatience = std::chrono::minutes(10);
 
 struct Arguments {
   ClusterOptions cluster;
-  std::vector<double> eye;  // X,Y,Z
+  std::vector<double> eye;      // X,Y,Z; empty: `place` says it
+  std::optional<double> place;  // on the observers' line or arc, in widths of the screen from its middle
   std::string out;
   std::string frames;  // folder of lfd render; empty: one frame is rendered
 };
 
+// Before the point of the screen that is so far from its middle.
+std::vector<double> eye_on_observer_line(const DisplayCalibration& display, double place) {
+  const Optics& optics = display.optics;
+  const double s = place * display.screen.width_m, radius = optics.screen_radius_m,
+               distance = optics.observer_distance_m;
+  if (!optics.observer_arc) return {s, optics.observer_height_m, distance};
+  return {(radius + distance) * std::sin(s / radius), optics.observer_height_m,
+          (radius + distance) * std::cos(s / radius) - radius};
+}
+
 // Lets lfd-display make the picture from a frame's folder.
 Status look(const Arguments& arguments, const fs::path& frame, StopSignals& signals) {
   LFD_TRY(const Deployment deployment, load_deployment(arguments.cluster));
+  const std::vector<double> eye =
+      arguments.place ? eye_on_observer_line(deployment.display, *arguments.place) : arguments.eye;
   Process::Options options{
       .name = "view",
       .command = {own_folder() / "lfd-display", "view", "--frames-dir", frame, "--display", deployment.display_file,
-                  fmt::format("--eye={}", fmt::join(arguments.eye, ",")), "--out", arguments.out},
+                  fmt::format("--eye={}", fmt::join(eye, ",")), "--out", arguments.out},
       .on_line =
           [](std::string_view line) {
             if (!line.starts_with(kErrorMark)) std::cerr << line << std::endl;
@@ -64,14 +79,21 @@ Status view(const Arguments& arguments, StopSignals& signals) {
 void add_view_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = add_command(app, "view", "Write what a viewer at a place sees", exit_code, [arguments] {
-    if (!(arguments->eye[2] > 0))
+    if (arguments->eye.empty() && !arguments->place) return wrong_use(Error("--eye or --place is needed"));
+    if (!arguments->place && !(arguments->eye[2] > 0))
       return wrong_use(Error("--eye: z must be > 0: a viewer stands in front of the screen"));
     if (const Status writable = check_writable(arguments->out); !writable) return fail(writable.error());
     return do_with_cluster(arguments->cluster, [&](StopSignals& signals) { return view(*arguments, signals); });
   });
   add_cluster_options(*command, arguments->cluster);
-  add_numbers(*command, "--eye", arguments->eye, "X,Y,Z", "Of the eye in physical metres (z: distance from the screen)")
-      ->required();
+  CLI::Option* eye = add_numbers(*command, "--eye", arguments->eye, "X,Y,Z",
+                                 "Of the eye in physical metres (z: distance from the screen)");
+  command
+      ->add_option(
+          "--place", arguments->place,
+          "In its place: before the screen's middle (0), on the observers' line, so many widths of the screen aside")
+      ->check(number_within(-1, 1))
+      ->excludes(eye);
   command->add_option("--out", arguments->out, "PNG file to write")->required();
   command->add_option("--frames-dir", arguments->frames,
                       "Use images that `lfd render` wrote: the folder of a frame, or its parent (then frame 0)");

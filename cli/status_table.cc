@@ -2,6 +2,7 @@
 #include "cli/status_table.h"
 
 #include "base/log.h"
+#include "proto/settings.h"
 
 namespace lfd {
 namespace {
@@ -23,9 +24,32 @@ std::string ranges_text(const google::protobuf::RepeatedField<std::uint32_t>& nu
 }
 
 std::string roi_text(const proto::RegionOfInterest& roi) {
-  return fmt::format("world     centre {}  size {}\nphysical  centre {}  size {}\n", vector_text(roi.world_centre()),
-                     vector_text(roi.world_size()), vector_text(roi.physical_centre()),
-                     vector_text(roi.physical_size()));
+  const proto::Quaternion& q = roi.world_orientation();
+  const bool is_turned = roi.has_world_orientation() && (q.x() != 0 || q.y() != 0 || q.z() != 0);
+  return fmt::format(
+      "world     centre {}  size {}{}\nphysical  centre {}  size {}\n", vector_text(roi.world_centre()),
+      vector_text(roi.world_size()),
+      is_turned ? fmt::format("  orientation {:.6g},{:.6g},{:.6g},{:.6g}", q.w(), q.x(), q.y(), q.z()) : "",
+      vector_text(roi.physical_centre()), vector_text(roi.physical_size()));
+}
+
+std::string ao_text(const proto::AmbientOcclusion& message) {
+  proto::RenderSettings render;
+  *render.mutable_ao() = message;
+  const auto settings = read_settings(render);
+  if (!settings) return settings.error().message() + "\n";
+  const AoSettings& ao = settings->ao;
+  constexpr const char* kGenerators[] = {"poisson-disk", "uniform", "jittered", "latin-square"};
+  return fmt::format(
+      "occlusion  {}\nradius     {}, {} radii\nsamples    {} per radius, {}, shell from {:g}, seed {}{}\n"
+      "curve      a {:g}, b {:g}, c {:g}\nblur       {}\ntarget     {}\n",
+      ao.enabled ? "on" : "off",
+      ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
+                      : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
+      ao.radii, ao.samples, kGenerators[static_cast<int>(ao.generator)], ao.shell, ao.seed,
+      ao.point_symmetric ? ", point-symmetric" : "", ao.curve_a, ao.curve_b, ao.curve_c,
+      ao.blur_enabled ? fmt::format("sigma {:g} px", ao.blur_sigma_px) : "off",
+      ao.target == AoTarget::kAmbientLight ? "ambient-light" : "whole-color");
 }
 
 std::string status_table(const proto::Status& status) {
@@ -42,6 +66,7 @@ std::string status_table(const proto::Status& status) {
   line("state", fmt::format("{} (update {})", status.state_hash(), status.sequence()));
   line("occlusion", status.render().ao().has_enabled() && !status.render().ao().enabled() ? "off" : "on");
   table += roi_text(status.roi());
+  for (const std::string& warning : status.scene_warning()) table += fmt::format("warning: {}\n", warning);
   table += fmt::format("\n{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", "peer", "role", "state", "process", "state hash",
                        "modules");
   for (const proto::PeerStatus& peer : status.peer()) {

@@ -4,10 +4,16 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/log.h"
+#include "proto/calibration_file.h"
 #include "proto/settings.h"
+#include "proto/wire/socket.h"
 
 namespace lfd::controller {
 namespace {
+
+constexpr std::size_t kMostStateBytes =
+    wire::kSmallMessages.max_part_bytes - (std::size_t{1} << 20);  // beside the rest
 
 // Settings that can be drawn with this region of interest.
 Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi) {
@@ -19,6 +25,7 @@ Status check_together(const proto::RenderSettings& render, const RegionOfInteres
 
 Stage::Stage(const Deployment& deployment)
     : screen_(deployment.display.screen),
+      display_bytes_(write_calibration(deployment.display).ByteSizeLong()),
       animation_frames_per_second_(deployment.animation_frames_per_second),
       wished_roi_(deployment.message.roi()),
       render_(deployment.message.render()) {}
@@ -37,6 +44,11 @@ Result<RegionOfInterest> Stage::complete(const proto::RegionOfInterest& wish, co
 Result<proto::Update> Stage::show(LoadedScene scene) {
   LFD_TRY(const RegionOfInterest roi, complete(wished_roi_, scene.data.scene));
   LFD_TRY_STATUS(check_together(render_, roi));
+  const std::size_t bytes = scene.data.scene.ByteSizeLong() + display_bytes_;
+  if (bytes > kMostStateBytes) {
+    return Error(fmt::format("{} MiB of instances, materials and measured maps; nodes are sent at most {} MiB at once",
+                             bytes >> 20, kMostStateBytes >> 20));
+  }
   roi_ = roi;
   proto::Update update;
   *update.mutable_scene() = scene.data.scene;

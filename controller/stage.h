@@ -20,10 +20,12 @@ class Stage {
 
   bool has_scene() const { return scene_.has_value(); }
   const StateStore& store() const { return store_; }
-  const RegionOfInterest& roi() const { return roi_; }          // of the scene that is there
-  const Assets& assets() const { return scene_->data.assets; }  // likewise
+  const RegionOfInterest& roi() const { return roi_; }                           // of the scene that is there
+  const Assets& assets() const { return scene_->data.assets; }                   // likewise
+  const std::vector<std::string>& warnings() const { return scene_->warnings; }  // likewise
 
-  // Each changes the state and returns the update to publish; an error changes nothing.
+  // Each changes the state and returns the update to publish; an error changes nothing. One of show(): the scene and
+  // the display do not fit into one message.
   Result<proto::Update> show(LoadedScene scene);
   Result<proto::Update> set_roi(const proto::RegionOfInterest& wish);  // boxes left out follow from the scene's bounds
   Result<proto::Update> set_render(const proto::RenderSettings& render);
@@ -42,6 +44,7 @@ class Stage {
   Result<RegionOfInterest> complete(const proto::RegionOfInterest& wish, const proto::Scene& scene) const;
 
   ScreenSize screen_;
+  std::size_t display_bytes_;  // of the display in a message
   double animation_frames_per_second_;
   proto::RegionOfInterest wished_roi_;
   proto::RenderSettings render_;

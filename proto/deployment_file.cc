@@ -74,6 +74,12 @@ Check assign_listed(const proto::Deployment& m, int module_count, std::vector<No
         node.modules.push_back(module);
       }
     }
+    if (node.modules.empty()) {
+      const std::string road = fmt::format("node {}", i);
+      return Fault{road, Error(fmt::format("{}: modules: \"{}\" has none, though others have; spare nodes are not "
+                                           "supported",
+                                           road, node.name))};
+    }
     std::sort(node.modules.begin(), node.modules.end());
   }
   return std::nullopt;

@@ -20,7 +20,7 @@ inline constexpr int kMaxModulesPerNode = 256;
 // The part of a display that one render node draws.
 struct NodeShare {
   std::string name;          // unique; letters, digits, '.', '-', '_'
-  std::vector<int> modules;  // ascending; no module has two nodes; empty: a spare
+  std::vector<int> modules;  // ascending; no module has two nodes; empty where nodes outnumber them
   int gpu = -1;              // of `lfd-rendernode --list-gpus`; -1: the first that works
 };
 

@@ -110,6 +110,11 @@ Result<GridNodes> parse_grid_csv(std::string_view text) {
     }
     node = line.at;
   }
+  if (const auto fault = node_fault(nodes)) {
+    const auto at = std::ranges::find_if(
+        lines, [&](const Line& line) { return line.column == fault->column && line.row == fault->row; });
+    return Error(fmt::format("{}: {}: {}", at->number, fault->coordinate, fault->what));
+  }
   return nodes;
 }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A grid of pixels of `channels` numbers each; a hole is one where either coordinate is NaN.
-GridNodes nodes_of(int width, int height, const std::vector<float>& numbers, std::size_t channels) {
+Result<GridNodes> nodes_of(int width, int height, const std::vector<float>& numbers, std::size_t channels) {
   GridNodes nodes;
   nodes.columns = width;
   nodes.rows = height;
@@ -28,6 +28,9 @@ GridNodes nodes_of(int width, int height, const std::vector<float>& numbers, std
     const ScreenPoint s{numbers[i], numbers[i + 1]};
     const double hole = s.x + s.y;
     nodes.node.push_back(std::isnan(s.x) || std::isnan(s.y) ? ScreenPoint{hole, hole} : s);
+  }
+  if (const auto fault = node_fault(nodes)) {
+    return Error(fmt::format("pixel ({}, {}): {}: {}", fault->column, fault->row, fault->coordinate, fault->what));
   }
   return nodes;
 }
@@ -38,7 +41,7 @@ Result<GridNodes> parse_grid_pfm(std::string_view content) {
 }
 
 Result<GridNodes> parse_grid_exr(std::string_view content) {
-  LFD_TRY(const auto channels, exr_channels(content));
+  LFD_TRY(const auto channels, exr_channels(content, kMaxGridSide));
   const bool is_named = std::ranges::count(channels, "s") > 0;
   const std::array<std::string, 4> names{is_named ? "s" : "R", is_named ? "y" : "G", "", ""};
   LFD_TRY(const PictureF picture, decode_exr_channels(content, names, kMaxGridSide));

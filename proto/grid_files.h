@@ -22,6 +22,7 @@ inline constexpr std::size_t kGridFileLimit_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t kMaxFileNodes = std::size_t{1} << 26;  // of all grid files of a calibration
 
 // The nodes of a file, whose format its name's ending tells; places and steps are left as they are in GridNodes{}.
+// Errors, a node_fault() among them, name the line ("7: s: ...") or the pixel ("pixel (3, 7): s: ...").
 Result<GridNodes> parse_grid_file(std::string_view name, std::string_view content);
 
 // Fills s and y of every grid that names a file, relative to `folder`, and clears the name. Columns and rows are the

@@ -5,8 +5,8 @@
 
 #include "base/log.h"
 #include "base/version.h"
+#include "bench/common/built_commit.h"
 #include "bench/common/shown_scene.h"
-#include "bench/frame/commit.h"
 #include "controller/scene/scene_file.h"
 #include "rendernode/renderer.h"
 
@@ -52,7 +52,7 @@ Result<FrameSubject> subject_of(const Deployment& deployment, const SceneData& s
   subject.ao_radius_m = settings.ao.radius_in_world_m(subject.roi_diagonal_m);
   subject.ao = settings.ao;
   subject.version = kVersion;
-  subject.commit = LFD_COMMIT;
+  subject.commit = built_commit();
   return subject;
 }
 

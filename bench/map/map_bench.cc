@@ -7,11 +7,12 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "base/version.h"
+#include "bench/common/built_commit.h"
 #include "bench/common/frame_picture.h"
 #include "bench/common/shown_scene.h"
 #include "bench/common/spread.h"
 #include "bench/reference/silhouette.h"
+#include "rendernode/geometry/warp_table.h"
 #include "rendernode/renderer.h"
 
 namespace lfd::bench {
@@ -100,6 +101,8 @@ Result<std::vector<Candidate>> candidates_of(const gl::Context& context, const D
     one.row.variant = variant.name;
     one.row.module = module;
     one.row.build_ms = milliseconds(Clock::now() - start);
+    const WarpTables tables = warp_tables(deployment.display, {module}, variant.render.warp_level());
+    if (tables.of_module[0]) one.row.table = MeasuredTable{tables.columns(), tables.of_module[0]->error_px};
     candidates.push_back(std::move(one));
   }
   return candidates;
@@ -167,6 +170,10 @@ std::vector<std::string> MapTable::scenes() const {
   return names;
 }
 
+const Spread& cost_ratio(const MapTable& table, const MapRow& row) {
+  return table.is_software ? row.wall_ratio : row.gpu_ratio;
+}
+
 std::vector<std::string> missed_bounds(const reference::Truth& truth, const MapBounds& bounds) {
   std::vector<std::string> missed;
   const auto check = [&](const char* what, double value, double bound) {
@@ -184,7 +191,7 @@ std::vector<std::string> missed_bounds(const MapTable& table, const std::string&
   for (const MapRow& row : table.rows) {
     if (row.variant != variant) continue;
     std::vector<std::string> of_row = missed_bounds(row.truth, bounds);
-    const double ratio = (table.is_software ? row.wall_ratio : row.gpu_ratio).median;
+    const double ratio = cost_ratio(table, row).median;
     if (row.scene == table.rows.front().scene && ratio > bounds.ratio)
       of_row.push_back(fmt::format("time over plain vertices {:.2f}; at most {:.2f} is allowed", ratio, bounds.ratio));
     for (const std::string& line : of_row)
@@ -206,7 +213,7 @@ Result<MapTable> map_bench(const gl::Context& context, const MapBenchOptions& op
   const DisplayCalibration& display = deployments.front().display;
   LFD_TRY(const std::vector<std::uint32_t> modules, chosen_modules(options, display));
   MapTable table{
-      display.name, display.image, context.description(), context.is_software(), kVersion, options.frames, {}};
+      display.name, display.image, context.description(), context.is_software(), built_version(), options.frames, {}};
   for (const Deployment& deployment : deployments) {
     LFD_TRY(const LoadedScene scene, load_shown_scene(deployment));
     for (const std::uint32_t module : modules) {

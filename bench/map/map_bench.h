@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,19 @@ struct MapBenchOptions {
   int gpu = -1;                               // of `lfd-rendernode --list-gpus`; -1: the first that works
 };
 
+// The table that stands for a measured map.
+struct MeasuredTable {
+  int columns = 0;
+  double error_px = 0;  // largest distance from the map (rendernode/geometry/warp_table.h)
+};
+
 // One variant on one module of one scene.
 struct MapRow {
   std::string scene, variant;
   std::uint32_t module = 0;
-  std::uint64_t triangles = 0;   // after cutting and subdivision
-  double build_ms = 0;           // geometry, once, on the CPU
+  std::uint64_t triangles = 0;  // after cutting and subdivision
+  double build_ms = 0;          // geometry and tables, once, on the CPU
+  std::optional<MeasuredTable> table;
   Spread gpu_ms, wall_ms;        // over frames: z prepass and G-buffer by timer queries; submitted to done
   Spread gpu_ratio, wall_ratio;  // to plain vertices in the same round
   double roi_diagonal_m = 0;
@@ -60,8 +68,11 @@ struct MapBounds {
 // One line for each bound on errors that a picture misses, with both numbers.
 std::vector<std::string> missed_bounds(const reference::Truth& truth, const MapBounds& bounds = {});
 
-// One line for each bound that a variant misses, with scene, module and both numbers. None: it may be the default. On a
-// rasteriser that works on the CPU timer queries leave vertices out, so the ratio is that of the wall clock there.
+// The time that counts, over that of plain vertices: of the GPU by timer queries; on a rasteriser that works on the
+// CPU, where these leave vertices out, of the wall clock.
+const Spread& cost_ratio(const MapTable& table, const MapRow& row);
+
+// One line for each bound that a variant misses, with scene, module and both numbers. None: it may be the default.
 std::vector<std::string> missed_bounds(const MapTable& table, const std::string& variant, const MapBounds& bounds = {});
 
 // Loads, times, judges; progress goes to the log. Errors: files, numbers that do not fit, the driver.

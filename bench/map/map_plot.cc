@@ -42,9 +42,9 @@ void draw_grid(plots::Svg& svg, const Axis& x, const Axis& y) {
   }
 }
 
-void draw_labels(plots::Svg& svg, const std::string& title, const Axis& x, const Axis& y) {
+void draw_labels(plots::Svg& svg, const std::string& title, const std::string& time, const Axis& x, const Axis& y) {
   svg.text({kLeft, 24}, title, {.size_px = 15, .is_bold = true});
-  svg.text({0.5 * (x.from_px + x.to_px), kHeight - 18}, "wall-clock time over that of plain vertices",
+  svg.text({0.5 * (x.from_px + x.to_px), kHeight - 18}, time + " over that of plain vertices",
            {.anchor = plots::Anchor::kMiddle});
   svg.text({22, 0.5 * (y.from_px + y.to_px)}, "99.9 % position error / ROI diagonal",
            {.anchor = plots::Anchor::kMiddle, .is_upright = true});
@@ -68,8 +68,8 @@ std::string svg_of(const MapTable& table, const std::string& scene) {
   double least = 1, most = 2, best = 1e-7, worst = 1e-3;
   std::vector<std::string> names;
   for (const MapRow& row : rows) {
-    least = std::min(least, row.wall_ratio.median);
-    most = std::max(most, row.wall_ratio.median);
+    least = std::min(least, cost_ratio(table, row).median);
+    most = std::max(most, cost_ratio(table, row).median);
     best = std::min(best, drawn_error(row));
     worst = std::max(worst, row.truth.percent_999);
     if (std::ranges::find(names, row.variant) == names.end()) names.push_back(row.variant);
@@ -78,13 +78,14 @@ std::string svg_of(const MapTable& table, const std::string& scene) {
   const Axis y{std::floor(std::log10(best)), std::ceil(std::log10(worst)), kHeight - kBottom, kTop};
   plots::Svg svg(kWidth, kHeight);
   draw_grid(svg, x, y);
-  draw_labels(svg, fmt::format("Position error over time: {} on {}", scene, table.display), x, y);
+  draw_labels(svg, fmt::format("Position error over time: {} on {}", scene, table.display),
+              table.is_software ? "wall-clock time" : "GPU time", x, y);
   draw_bounds(svg, x, y);
   const std::uint32_t first_module = rows.empty() ? 0 : rows.front().module;
   for (const MapRow& row : rows) {
     const auto number = static_cast<std::size_t>(std::ranges::find(names, row.variant) - names.begin());
     const char* color = kColors[number % std::size(kColors)];
-    const plots::Place at{x.at(row.wall_ratio.median), y.at(drawn_error(row))};
+    const plots::Place at{x.at(cost_ratio(table, row).median), y.at(drawn_error(row))};
     if (row.module == first_module) {
       svg.circle(at, 6, {.fill = color});
     } else {

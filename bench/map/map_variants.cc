@@ -39,7 +39,7 @@ std::vector<MapVariant> map_variants(const DisplayCalibration& display) {
   };
   const bool is_measured = std::ranges::any_of(
       display.modules, [](const ModuleCalibration& m) { return std::holds_alternative<GridMap>(m.map); });
-  for (int level = 4; is_measured && level <= 8; ++level) {
+  for (int level = 4; is_measured && level <= 9; ++level) {
     variants.push_back(variant(fmt::format("per pixel, 0.02 px, warp table of {} columns", (1 << level) + 1), 0.02,
                                kPerPixel, 0, level));
   }

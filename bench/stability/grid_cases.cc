@@ -91,11 +91,11 @@ void add_refusals(StabilityCases& cases) {
   cases.push_back(rejects("a single column", "columns: 1; 2 to 4096", nodes));
   nodes = bent_nodes();
   node(nodes, 9, 6) = node(nodes, 8, 6);
-  cases.push_back(rejects("duplicated nodes", "node (column 8, row 6): it is at the same place", nodes));
+  cases.push_back(rejects("duplicated nodes", "column 8, row 6: at the same place", nodes));
   for (const double value : {1e30, -1e30, 1e300, kInfinity, -kInfinity}) {
-    cases.push_back(rejects(fmt::format("a node at {:g} m", value), "node (column 8, row 6)", with_node({value, 0})));
+    cases.push_back(rejects(fmt::format("a node at {:g} m", value), "column 8, row 6", with_node({value, 0})));
   }
-  cases.push_back(rejects("half a hole", "one coordinate is missing", with_node({kNaN, 0})));
+  cases.push_back(rejects("half a hole", "s 110: column 8, row 6: is missing", with_node({kNaN, 0})));
   nodes = bent_nodes();
   for (auto& n : nodes.node) n = {kNaN, kNaN};
   cases.push_back(rejects("holes alone", "no cell of the grid has all four corners", nodes));

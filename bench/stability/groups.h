@@ -19,8 +19,11 @@ void add_distortion_cases(StabilityCases& cases);
 void add_field_cases(StabilityCases& cases);
 // Bad numbers in scenes and in requests of control clients.
 void add_scene_field_cases(StabilityCases& cases);
-// Bad numbers in observations and MPCDI archives.
+// Bad numbers in observations, in MPCDI archives, in other programs' models, and in files of measured grids.
 void add_text_field_cases(StabilityCases& cases);
+void add_mpcdi_field_cases(StabilityCases& cases);
+void add_model_field_cases(StabilityCases& cases);
+void add_grid_file_field_cases(StabilityCases& cases);
 // Float on the GPU against double: the map's functions near their limits.
 void add_gpu_map_cases(StabilityCases& cases);
 // Emitters near the screen, far from it, and at and below the observer's height, as pictures.

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/log.h"
-#include "base/version.h"
+#include "bench/common/built_commit.h"
 #include "bench/stability/groups.h"
 #include "rendernode/gl/context.h"
 
@@ -31,6 +31,9 @@ StabilityCases stability_cases() {
   add_field_cases(cases);
   add_scene_field_cases(cases);
   add_text_field_cases(cases);
+  add_mpcdi_field_cases(cases);
+  add_model_field_cases(cases);
+  add_grid_file_field_cases(cases);
   add_gpu_map_cases(cases);
   add_module_cases(cases);
   add_end_cases(cases);
@@ -52,7 +55,7 @@ std::vector<std::string> StabilityTable::missed() const {
 
 Result<StabilityTable> run_stability(int gpu) {
   LFD_TRY(const std::unique_ptr<gl::Context> context, gl::Context::create(gpu));
-  StabilityTable table{context->description(), kVersion, {}};
+  StabilityTable table{context->description(), built_version(), {}};
   std::string group;
   for (const StabilityCase& one : stability_cases()) {
     if (one.group != std::exchange(group, one.group)) log::info("{}", group);

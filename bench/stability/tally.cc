@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include "base/log.h"
 
@@ -19,12 +20,25 @@ bool has_word(const std::string& text, const std::string& word) {
   return false;
 }
 
+// In `beginning` a '#' stands for any whole number.
+bool begins_with(std::string_view text, const std::string& beginning) {
+  for (const char c : beginning) {
+    if (c != '#' && !text.starts_with(c)) return false;
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    if (c == '#' && digits == 0) return false;
+    text.remove_prefix(c == '#' ? digits : 1);
+  }
+  return true;
+}
+
 }  // namespace
 
 void Tally::refused(const std::string& value, const std::string& message) {
   ++refused_;
   const bool is_named = std::ranges::any_of(words_, [&](const std::string& word) { return has_word(message, word); });
   if (!is_named) fault(value, "error without the field's name: " + message);
+  if (!begins_with(message, beginning_))
+    fault(value, fmt::format("error that does not begin with \"{}\": {}", beginning_, message));
 }
 
 void Tally::accepted(const std::string& value, const std::string& harm) {

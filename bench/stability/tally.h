@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/stability/case.h"
@@ -12,8 +13,10 @@ inline constexpr const char* kEachRefusedOrHarmless = "each value refused with t
 
 class Tally {
  public:
-  // words: one of them must stand in every error, as a word of its own.
-  explicit Tally(std::vector<std::string> words) : words_(std::move(words)) {}
+  // words: one of them must stand in every error, as a word of its own. beginning: every error must begin with it; a
+  // '#' in it stands for any whole number: "f.mpcdi: mpcdi.xml:#: ".
+  explicit Tally(std::vector<std::string> words, std::string beginning = "")
+      : words_(std::move(words)), beginning_(std::move(beginning)) {}
 
   void refused(const std::string& value, const std::string& message);
   // harm: empty, or what is wrong with what was accepted.
@@ -26,6 +29,7 @@ class Tally {
   void fault(const std::string& value, const std::string& what);
 
   std::vector<std::string> words_;
+  std::string beginning_;
   int refused_ = 0, accepted_ = 0;
   std::string fault_;
 };

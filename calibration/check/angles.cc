@@ -45,7 +45,11 @@ std::vector<EmitterDirection> emitter_directions(const DisplayCalibration& displ
   std::vector<EmitterDirection> directions;
   for (std::size_t k = 0; k < display.modules.size(); ++k) {
     const Emitter& emitter = display.modules[k].emitter;
-    directions.push_back({static_cast<int>(k), std::atan2(emitter.x - seen_from.x, seen_from.z - emitter.z)});
+    const double right = emitter.x - seen_from.x, behind = seen_from.z - emitter.z;
+    const double angle_rad = display.optics.diffuser == Diffuser::kConical
+                                 ? right / std::hypot(seen_from.y - emitter.y, behind)
+                                 : std::atan2(right, behind);
+    directions.push_back({static_cast<int>(k), angle_rad});
   }
   std::ranges::stable_sort(directions, {}, &EmitterDirection::angle_rad);
   const auto is_same = [](const EmitterDirection& a, const EmitterDirection& b) {

@@ -1,4 +1,7 @@
 // The directions from which light reaches the screen: how evenly the emitters divide the field of view.
+//
+// Angles are horizontal ones; with a conical diffuser they are rho_in of design geometry, section 5, which is about the
+// angle in the slanted plane through the emitter: that is what its angular scattering spreads.
 #pragma once
 
 #include <optional>
@@ -8,7 +11,7 @@
 
 namespace lfd {
 
-// Horizontal angles between neighbouring emitters, radians.
+// Angles between neighbouring emitters, radians.
 struct AngularSpacing {
   double min_rad = 0, median_rad = 0, max_rad = 0;
 };

@@ -14,19 +14,6 @@ namespace {
 
 constexpr double kSqueezed = 1e3;
 
-// Whether the module's map alone gives the pixel a point, on the screen or beside it.
-bool is_mapped(const ModuleCalibration& module, PixelPoint p) {
-  return std::visit(
-      [p](const auto& map) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(map)>, IdealMap>) {
-          return true;
-        } else {
-          return screen_from_image(map, p).has_value();
-        }
-      },
-      module.map);
-}
-
 void add_derivative(const DisplayCalibration& display, const glm::dmat2& derivative, ModuleSamples& samples) {
   ++samples.derivatives;
   if (!(glm::determinant(derivative) > 0)) ++samples.mirrored;
@@ -43,7 +30,7 @@ void sample_image(const DisplayCalibration& display, const ModuleCalibration& mo
       ++samples.image_points;
       const auto s = screen_from_image(display, module, p);
       if (!s) {
-        if (!is_mapped(module, p)) ++samples.unmapped;
+        if (!lit_by(display, module.map, p)) ++samples.unmapped;  // neither on the screen nor beside it
         continue;
       }
       const auto back = image_from_screen(display, module, *s);

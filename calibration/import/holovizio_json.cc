@@ -2,9 +2,15 @@
 #include "calibration/import/holovizio_json.h"
 
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/log.h"
+#include "calibration/import/foreign_fields.h"
 
 namespace lfd {
 namespace {
@@ -13,38 +19,168 @@ using nlohmann::json;
 
 constexpr double kMetre = 1000;  // in millimetres
 
-Result<json> member(const json& object, const char* field) {
-  const auto found = object.find(field);
-  if (found == object.end()) return Error(fmt::format("{}: is missing", field));
+// The line of the last character that was taken from a text; a line break is of the line that it ends.
+struct LineCount {
+  int line = 1;
+  bool has_ended = false;
+};
+
+class CountedText {
+ public:
+  using difference_type = std::ptrdiff_t;
+  using value_type = char;
+  using pointer = const char*;
+  using reference = const char&;
+  using iterator_category = std::input_iterator_tag;
+
+  CountedText() = default;
+  CountedText(const char* at, LineCount& count) : at_(at), count_(&count) {}
+  reference operator*() const { return *at_; }
+  CountedText& operator++() {
+    if (count_->has_ended) ++count_->line;
+    count_->has_ended = *at_ == '\n';
+    ++at_;
+    return *this;
+  }
+  CountedText operator++(int) {
+    CountedText before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const CountedText& other) const { return at_ == other.at_; }
+  bool operator!=(const CountedText& other) const { return at_ != other.at_; }
+
+ private:
+  const char* at_ = nullptr;
+  LineCount* count_ = nullptr;
+};
+
+// The lines of the fields of the object at the top ("name"), and of the elements of their lists ("name[3]").
+class FieldLines {
+ public:
+  explicit FieldLines(const LineCount& count) : count_(count) {}
+  std::map<std::string, int> take() { return std::move(lines_); }
+  const std::optional<Error>& beyond_double() const { return beyond_double_; }
+
+  // What json::sax_parse calls.
+  bool key(const std::string& name) {
+    if (depth_ == 1) {
+      field_ = name;
+      lines_.insert_or_assign(name, count_.line);
+    }
+    return true;
+  }
+  bool start_object(std::size_t) { return enter(); }
+  bool end_object() { return leave(); }
+  bool start_array(std::size_t) {
+    enter();
+    if (depth_ == 2) element_ = 0;
+    return true;
+  }
+  bool end_array() { return leave(); }
+  bool null() { return value(); }
+  bool boolean(bool) { return value(); }
+  bool number_integer(json::number_integer_t) { return value(); }
+  bool number_unsigned(json::number_unsigned_t) { return value(); }
+  bool number_float(json::number_float_t, const std::string&) { return value(); }
+  bool string(const std::string&) { return value(); }
+  bool binary(const json::binary_t&) { return value(); }
+  bool parse_error(std::size_t, const std::string&, const json::exception& exception) {
+    if (dynamic_cast<const json::out_of_range*>(&exception) != nullptr) {
+      const std::string field = depth_ == 2 ? fmt::format("{}[{}]", field_, element_) : field_;
+      beyond_double_ = Error(fmt::format("{}: {}: must be a number that a double can hold", count_.line, field));
+    }
+    return false;
+  }
+
+ private:
+  bool enter() {
+    value();
+    ++depth_;
+    return true;
+  }
+  bool leave() {
+    --depth_;
+    return true;
+  }
+  bool value() {
+    if (depth_ == 2) lines_.insert_or_assign(fmt::format("{}[{}]", field_, element_++), count_.line);
+    return true;
+  }
+
+  const LineCount& count_;
+  std::map<std::string, int> lines_;
+  std::string field_;
+  std::optional<Error> beyond_double_;  // the first number that is
+  int depth_ = 0, element_ = 0;
+};
+
+// Error: a number beyond any double. Other faults of the text are left to json::parse.
+Result<std::map<std::string, int>> lines_of_fields(std::string_view text) {
+  LineCount count;
+  FieldLines fields(count);
+  json::sax_parse(CountedText(text.data(), count), CountedText(text.data() + text.size(), count), &fields);
+  if (fields.beyond_double()) return *fields.beyond_double();
+  return fields.take();
+}
+
+// A model of which every error begins with a line and the field's name.
+class Model {
+ public:
+  Model(std::string_view text, std::map<std::string, int> lines)
+      : object_(json::parse(text)), lines_(std::move(lines)) {}
+
+  Result<DisplayCalibration> read() const;
+
+ private:
+  int line_of(const std::string& field) const {
+    const auto found = lines_.find(field);
+    return found == lines_.end() ? 1 : found->second;
+  }
+  Error error_at(const std::string& field, const std::string& what) const {
+    return Error(fmt::format("{}: {}: {}", line_of(field), field, what));
+  }
+  Result<json> member(const std::string& field) const;
+  Result<double> number_of(const json& value, const std::string& field) const;
+  Result<double> number(const std::string& field) const;
+  Result<int> whole_number(const std::string& field, int most) const;
+  Result<std::vector<double>> numbers(const std::string& field, int count) const;
+  Error foreign_error(const Error& error, std::size_t modules) const;
+
+  json object_;
+  std::map<std::string, int> lines_;
+};
+
+Result<json> Model::member(const std::string& field) const {
+  const auto found = object_.find(field);
+  if (found == object_.end()) return error_at(field, "is missing");
   return *found;
 }
 
-Result<double> number_of(const json& value, const std::string& place) {
-  if (!value.is_number()) return Error(fmt::format("{}: must be a number, not {}", place, value.type_name()));
+Result<double> Model::number_of(const json& value, const std::string& field) const {
+  if (!value.is_number()) return error_at(field, fmt::format("must be a number, not {}", value.type_name()));
   const double number = value.get<double>();
-  if (!std::isfinite(number)) return Error(fmt::format("{}: must be finite", place));
+  if (!std::isfinite(number)) return error_at(field, "must be finite");
   return number;
 }
 
-Result<double> number(const json& object, const char* field) {
-  LFD_TRY(const json value, member(object, field));
+Result<double> Model::number(const std::string& field) const {
+  LFD_TRY(const json value, member(field));
   return number_of(value, field);
 }
 
-Result<int> whole_number(const json& object, const char* field, int most) {
-  LFD_TRY(const double value, number(object, field));
-  if (value != std::floor(value) || value < 1 || value > most) {
-    return Error(fmt::format("{}: {}; a whole number from 1 to {} is needed", field, value, most));
-  }
+Result<int> Model::whole_number(const std::string& field, int most) const {
+  LFD_TRY(const double value, number(field));
+  if (value != std::floor(value) || value < 1 || value > most)
+    return error_at(field, fmt::format("{}; a whole number from 1 to {} is needed", value, most));
   return static_cast<int>(value);
 }
 
-Result<std::vector<double>> numbers(const json& object, const char* field, int count) {
-  LFD_TRY(const json list, member(object, field));
-  if (!list.is_array()) return Error(fmt::format("{}: must be a list, not {}", field, list.type_name()));
-  if (list.size() != static_cast<std::size_t>(count)) {
-    return Error(fmt::format("{}: {} numbers, but num_projectors is {}", field, list.size(), count));
-  }
+Result<std::vector<double>> Model::numbers(const std::string& field, int count) const {
+  LFD_TRY(const json list, member(field));
+  if (!list.is_array()) return error_at(field, fmt::format("must be a list, not {}", list.type_name()));
+  if (list.size() != static_cast<std::size_t>(count))
+    return error_at(field, fmt::format("{} numbers, but num_projectors is {}", list.size(), count));
   std::vector<double> values;
   for (std::size_t i = 0; i < list.size(); ++i) {
     LFD_TRY(const double value, number_of(list[i], fmt::format("{}[{}]", field, i)));
@@ -53,28 +189,45 @@ Result<std::vector<double>> numbers(const json& object, const char* field, int c
   return values;
 }
 
-Result<DisplayCalibration> read_model(const json& model) {
-  if (!model.is_object()) return Error("an object is needed at the top");
+// Errors of the display as a whole, in the file's words.
+Error Model::foreign_error(const Error& error, std::size_t modules) const {
+  std::vector<ForeignField> fields;
+  const auto add = [&](const std::string& road, const std::string& field) {
+    fields.push_back({road, line_of(field), field});
+  };
+  add("screen: width_m", "screen_size_x");
+  add("screen: height_m", "screen_size_y");
+  add("optics: observer_distance_m", "observer_distance");
+  add("angular_scattering_rad", "angular_scattering");
+  for (std::size_t k = 0; k < modules; ++k) {
+    for (const char axis : {'x', 'y', 'z'})
+      add(fmt::format("module {}: emitter: {}", k, axis), fmt::format("projectors_pos_{}[{}]", axis, k));
+  }
+  return in_foreign_words(error, fields);
+}
+
+Result<DisplayCalibration> Model::read() const {
+  if (!object_.is_object()) return Error("1: an object is needed at the top");
   DisplayCalibration display;
-  LFD_TRY(const json name, member(model, "name"));
-  if (!name.is_string()) return Error(fmt::format("name: must be a text, not {}", name.type_name()));
+  LFD_TRY(const json name, member("name"));
+  if (!name.is_string()) return error_at("name", fmt::format("must be a text, not {}", name.type_name()));
   display.name = name.get<std::string>();
-  LFD_TRY(const int count, whole_number(model, "num_projectors", kMaxModules));
-  LFD_TRY(display.image.width, whole_number(model, "image_size_x", kMaxImageSide_px));
-  LFD_TRY(display.image.height, whole_number(model, "image_size_y", kMaxImageSide_px));
-  LFD_TRY(const double distance, number(model, "observer_distance"));
-  LFD_TRY(const double width, number(model, "screen_size_x"));
-  LFD_TRY(const double height, number(model, "screen_size_y"));
-  LFD_TRY(display.angular_scattering_rad, number(model, "angular_scattering"));
+  LFD_TRY(const int count, whole_number("num_projectors", kMaxModules));
+  LFD_TRY(display.image.width, whole_number("image_size_x", kMaxImageSide_px));
+  LFD_TRY(display.image.height, whole_number("image_size_y", kMaxImageSide_px));
+  LFD_TRY(const double distance, number("observer_distance"));
+  LFD_TRY(const double width, number("screen_size_x"));
+  LFD_TRY(const double height, number("screen_size_y"));
+  LFD_TRY(display.angular_scattering_rad, number("angular_scattering"));
   display.optics = {Diffuser::kLinear, 0, distance / kMetre};
   display.screen = {width / kMetre, height / kMetre};
-  LFD_TRY(const auto x, numbers(model, "projectors_pos_x", count));
-  LFD_TRY(const auto y, numbers(model, "projectors_pos_y", count));
-  LFD_TRY(const auto z, numbers(model, "projectors_pos_z", count));
+  LFD_TRY(const auto x, numbers("projectors_pos_x", count));
+  LFD_TRY(const auto y, numbers("projectors_pos_y", count));
+  LFD_TRY(const auto z, numbers("projectors_pos_z", count));
   for (std::size_t k = 0; k < x.size(); ++k) {
     display.modules.push_back({{x[k] / kMetre, y[k] / kMetre, z[k] / kMetre}, IdealMap{}});
   }
-  LFD_TRY_STATUS(validate(display));
+  if (const Status status = validate(display); !status) return foreign_error(status.error(), display.modules.size());
   return display;
 }
 
@@ -82,8 +235,10 @@ Result<DisplayCalibration> read_model(const json& model) {
 
 Result<DisplayCalibration> import_holovizio_json(std::string_view text, const std::string& file) {
   try {
-    auto display = read_model(json::parse(text));
-    if (!display) return display.error().within(file);
+    auto lines = lines_of_fields(text);
+    if (!lines) return Error(fmt::format("{}:{}", file, lines.error().message()));
+    auto display = Model(text, *std::move(lines)).read();
+    if (!display) return Error(fmt::format("{}:{}", file, display.error().message()));
     return display;
   } catch (const json::exception& failure) {
     // parse_error says line and column

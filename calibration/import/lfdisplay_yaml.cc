@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "base/log.h"
+#include "calibration/import/foreign_fields.h"
 
 namespace lfd {
 namespace {
@@ -64,6 +65,15 @@ Result<Diffuser> diffuser_of(const YAML::Node& root) {
   return error_at(node, "diffusertype: must be linear or conical");
 }
 
+// An error of the emitter `number` of a line, in the file's words: "start[2] + 3 step[2]: ...".
+Error emitter_error(const YAML::Node& line, const std::string& road, int number, const Error& error) {
+  constexpr std::string_view kRoad = "emitter: ";
+  const std::string& message = error.message();
+  const char axis = message.at(kRoad.size());
+  return error_at(line, fmt::format("{}start[{}] + {} step[{}]: {}", road, axis - 'x', number, axis - 'x',
+                                    message.substr(kRoad.size())));
+}
+
 Status add_line(const YAML::Node& line, const std::string& road, double viewer_distance, DisplayCalibration& display) {
   if (!line.IsMap()) return error_at(line, road + "{start, step, number} is needed");
   LFD_TRY(const auto start, numbers<3>(line, "start", road));
@@ -74,7 +84,7 @@ Status add_line(const YAML::Node& line, const std::string& road, double viewer_d
   for (int i = 0; i < count; ++i) {
     const double z = viewer_distance - (start[2] + i * step[2]);
     const Emitter emitter{(start[0] + i * step[0]) / kMetre, (start[1] + i * step[1]) / kMetre, z / kMetre};
-    if (auto status = validate(emitter); !status) return error_at(line, road + status.error().message());
+    if (const Status status = validate(emitter); !status) return emitter_error(line, road, i, status.error());
     display.modules.push_back({emitter, IdealMap{}});
   }
   return {};
@@ -84,6 +94,20 @@ Result<double> scattering_of(const YAML::Node& root) {
   LFD_TRY(const auto power, numbers<2>(root, "diffusionpower"));
   if (!(power[0] > 0)) return error_at(root["diffusionpower"], "diffusionpower[0]: must be positive");
   return 1.11741 / std::sqrt(power[0]);
+}
+
+// Errors of the display as a whole, in the file's words.
+Error foreign_error(const YAML::Node& root, const Error& error) {
+  const auto line = [](const YAML::Node& node) { return node.Mark().line + 1; };
+  const Error said =
+      in_foreign_words(error, {{"screen: width_m", line(root["halfphyssize"][0]), "halfphyssize[0]"},
+                               {"screen: height_m", line(root["halfphyssize"][1]), "halfphyssize[1]"},
+                               {"image: width_px", line(root["resolution"][0]), "resolution[0]"},
+                               {"image: height_px", line(root["resolution"][1]), "resolution[1]"},
+                               {"optics: observer_distance_m", line(root["viewerdistance"]), "viewerdistance"},
+                               {"angular_scattering_rad", line(root["diffusionpower"]), "diffusionpower[0]"},
+                               {"module", line(root["projectorlines"]), "projectorlines"}});
+  return Error(":" + said.message());
 }
 
 Result<DisplayCalibration> read_configuration(const YAML::Node& root) {
@@ -106,7 +130,7 @@ Result<DisplayCalibration> read_configuration(const YAML::Node& root) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     LFD_TRY_STATUS(add_line(lines[i], fmt::format("projectorlines[{}]: ", i), distance, display));
   }
-  if (auto status = validate(display); !status) return error_at(root, status.error().message());
+  if (auto status = validate(display); !status) return foreign_error(root, status.error());
   return display;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "calibration/curved_screen.h"
+#include "calibration/import/foreign_fields.h"
 #include "calibration/import/mpcdi_xml.h"
 #include "calibration/import/pfm.h"
 #include "calibration/import/zip_archive.h"
@@ -43,6 +44,25 @@ Result<Point3<Physical>> origin_of(const std::string& name, const DisplayCalibra
   }
   return Error(fmt::format(
       "originOf3DData: \"{}\"; where that is must be told (centerOfMass and idealEyePoint are known)", name));
+}
+
+// An error of the emitter that coordinateFrame's position has made.
+Error error_of_position(const Error& error) {
+  const std::string kRoad = "emitter: ";
+  return Error("coordinateFrame: pos" + error.message().substr(kRoad.size()));
+}
+
+// Errors of validate() about what the extension says.
+Error error_of_extension(const Error& error, int line) {
+  const Error said = in_foreign_words(error, {{"screen: width_m", line, "screenWidth"},
+                                              {"screen: height_m", line, "screenHeight"},
+                                              {"optics: screen_radius_m", line, "screenRadius"},
+                                              {"optics: observer_height_m", line, "observerHeight"},
+                                              {"optics: observer_distance_m", line, "observerDistance"},
+                                              {"optics: observer_arc", line, "observerArc"},
+                                              {"optics: diffuser", line, "diffuser"},
+                                              {"angular_scattering_rad", line, "angularScattering"}});
+  return Error(fmt::format("{}:{}", kXmlEntry, said.message()));
 }
 
 // A point near the screen's surface: where on it, and how far from it.
@@ -147,7 +167,10 @@ Status Importer::start() {
         "given");
   }
   display.image = document_.regions.front().resolution;
-  if (options_.like == nullptr) return {};
+  if (options_.like == nullptr) {
+    const Status status = validate_without_modules(display);
+    return status ? status : error_of_extension(status.error(), document_.extension->line);
+  }
   if (options_.like->modules.size() != document_.regions.size()) {
     return Error(fmt::format("{} regions, but the display given has {} modules", document_.regions.size(),
                              options_.like->modules.size()));
@@ -204,11 +227,14 @@ Result<ModuleCalibration> Importer::module_of(const MpcdiRegion& region, std::si
   } else if (region.position) {
     const Point3<Physical>& p = *region.position;
     emitter = {origin.x + metre * p.x, origin.y + metre * p.y, origin.z + metre * p.z};
+    if (const Status status = validate(emitter); !status) return error_of_position(status.error());
   } else {
     return Error("coordinateFrame: is missing, and no display like it is given: nothing says where the emitter is");
   }
   LFD_TRY(GridMap map, map_of(region, metre, origin));
-  return ModuleCalibration{emitter, std::move(map)};
+  ModuleCalibration module{emitter, std::move(map)};
+  if (options_.like != nullptr) module.color = options_.like->modules[k].color;
+  return module;
 }
 
 Result<MpcdiImport> Importer::run() {

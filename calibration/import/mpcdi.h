@@ -6,7 +6,8 @@
 //   centerOfMass    of the screen's surface; on a planar screen its centre
 //   idealEyePoint   on the observer line before the screen's centre
 //   floorCenter     of which only the person who imports knows where it is
-// A pixel with NaN in it lights nothing. Alpha, beta and distortion maps are left out, with a warning.
+// A pixel with NaN in it lights nothing. Alpha, beta and distortion maps are left out, with a warning; colour
+// calibrations cannot be exported.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,8 @@
 namespace lfd {
 
 struct MpcdiImportOptions {
-  // Gives name, screen, optics, angular scattering and emitters; its modules are the file's regions in their order.
+  // Gives name, screen, optics, angular scattering, emitters and colour; its modules are the file's regions in their
+  // order.
   // Without it our own extension in the file gives the first four (files of export_mpcdi have it), and the regions'
   // coordinateFrame positions are the emitters.
   const DisplayCalibration* like = nullptr;

@@ -155,7 +155,11 @@ Status Parser::parse_extension(const pugi::xml_node& root) {
     LFD_TRY(extension.optics.observer_height_m, number_attribute(node, "observerHeight"));
     LFD_TRY(extension.optics.observer_distance_m, number_attribute(node, "observerDistance"));
     LFD_TRY(extension.angular_scattering_rad, number_attribute(node, "angularScattering"));
-    extension.optics.observer_arc = attribute(node, "observerArc").as_bool();
+    const std::string_view arc = attribute(node, "observerArc").value();
+    if (arc != "true" && arc != "false")
+      return error_at(node, fmt::format("observerArc: \"{}\"; true or false is needed", arc));
+    extension.optics.observer_arc = arc == "true";
+    extension.line = line_of(node);
     const std::string_view diffuser = attribute(node, "diffuser").value();
     if (diffuser != "linear" && diffuser != "conical") {
       return error_at(node, fmt::format("diffuser: \"{}\"; linear or conical is needed", diffuser));

@@ -31,6 +31,7 @@ struct MpcdiExtension {
   ScreenSize screen;
   Optics optics;
   double angular_scattering_rad = 0;
+  int line = 0;
 };
 
 struct MpcdiDocument {

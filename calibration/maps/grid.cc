@@ -53,21 +53,22 @@ BicubicPatch patch_of_cell(const GridNodes& nodes, int column, int row) {
   return patch_between(p);
 }
 
-Status check_node(const GridNodes& nodes, int column, int row) {
+std::optional<NodeFault> fault_at(const GridNodes& nodes, int column, int row) {
   const ScreenPoint& s = nodes.at(column, row);
-  const auto name = [&] { return fmt::format("node (column {}, row {})", column, row); };
-  if (std::isnan(s.x) != std::isnan(s.y)) return Error(name() + ": one coordinate is missing: both or none");
-  if (is_hole(s)) return {};
-  if (!(std::abs(s.x) <= kMaxScreenPlace_m) || !(std::abs(s.y) <= kMaxScreenPlace_m)) {
-    return Error(fmt::format("{}: ({:g}, {:g}) m; at most {:g} m is possible", name(), s.x, s.y, kMaxScreenPlace_m));
+  const auto fault = [&](char coordinate, std::string what) { return NodeFault{column, row, coordinate, what}; };
+  if (std::isnan(s.x) != std::isnan(s.y))
+    return fault(std::isnan(s.x) ? 's' : 'y', "is missing, the other coordinate is there: both or none");
+  if (is_hole(s)) return std::nullopt;
+  for (const auto& [coordinate, value] : {std::pair{'s', s.x}, std::pair{'y', s.y}}) {
+    if (!(std::abs(value) <= kMaxScreenPlace_m))
+      return fault(coordinate, fmt::format("{:g} m; at most {:g} m is possible", value, kMaxScreenPlace_m));
   }
   for (const auto& [i, j] : {std::pair{column + 1, row}, std::pair{column, row + 1}}) {
     const auto neighbour = node_at(nodes, i, j);
-    if (neighbour && *neighbour == vec(s)) {
-      return Error(fmt::format("{}: it is at the same place of the screen as column {}, row {}", name(), i, j));
-    }
+    if (neighbour && *neighbour == vec(s))
+      return fault('s', fmt::format("at the same place of the screen as column {}, row {}", i, j));
   }
-  return {};
+  return std::nullopt;
 }
 
 Status check_nodes(const GridNodes& nodes) {
@@ -90,8 +91,9 @@ Status check_nodes(const GridNodes& nodes) {
     if (!std::isfinite(value)) return Error(fmt::format("{}: must be finite", name));
     LFD_TRY_STATUS(check_magnitude(name, value, kPlace_px));
   }
-  for (int row = 0; row < nodes.rows; ++row) {
-    for (int column = 0; column < nodes.columns; ++column) LFD_TRY_STATUS(check_node(nodes, column, row));
+  if (const auto fault = node_fault(nodes)) {
+    return Error(fmt::format("{} {}: column {}, row {}: {}", fault->coordinate,
+                             fault->row * nodes.columns + fault->column, fault->column, fault->row, fault->what));
   }
   return {};
 }
@@ -172,6 +174,15 @@ bool GridNodes::operator==(const GridNodes& other) const {
   return columns == other.columns && rows == other.rows && first_u_px == other.first_u_px &&
          first_v_px == other.first_v_px && step_u_px == other.step_u_px && step_v_px == other.step_v_px &&
          std::ranges::equal(node, other.node, same);
+}
+
+std::optional<NodeFault> node_fault(const GridNodes& nodes) {
+  for (int row = 0; row < nodes.rows; ++row) {
+    for (int column = 0; column < nodes.columns; ++column) {
+      if (auto fault = fault_at(nodes, column, row)) return fault;
+    }
+  }
+  return std::nullopt;
 }
 
 Result<GridMap> GridMap::make(GridNodes nodes) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -32,12 +33,23 @@ struct GridNodes {
 inline constexpr int kMaxGridSide = 4096;         // nodes
 inline constexpr double kMaxScreenPlace_m = 1e4;  // beyond this a node is a mistake
 
+// What is wrong with a node.
+struct NodeFault {
+  int column = 0, row = 0;
+  char coordinate = 's';  // that shows it: s or y
+  std::string what;
+};
+
+// The first, row by row: a node that is infinite, half a hole or beyond kMaxScreenPlace_m, or at the same place as its
+// neighbour. node has columns x rows of them.
+std::optional<NodeFault> node_fault(const GridNodes& nodes);
+
 // Immutable; copies share the nodes.
 class GridMap {
  public:
-  // Errors name the node: fewer than 2 x 2 nodes or more than kMaxGridSide a side, another number of nodes than
-  // columns x rows, steps that are not positive and finite, a node that is infinite, half a hole or absurdly far away,
-  // two neighbours at the same place, no cell with all four corners.
+  // Errors name the field, of nodes with their number ("s 17: ..."): fewer than 2 x 2 nodes or more than kMaxGridSide a
+  // side, another number of nodes than columns x rows, steps that are not positive and finite, a node_fault(), no cell
+  // with all four corners.
   static Result<GridMap> make(GridNodes nodes);
 
   const GridNodes& nodes() const;
@@ -67,8 +79,8 @@ class GridMap {
 // corner, and where the grid has folded.
 std::optional<ScreenPoint> screen_from_image(const GridMap& map, PixelPoint p);
 
-// Its inverse, to rounding. Absent where no point of the grid that has not folded lights `s`; that is proven, not given
-// up: see invert() in bicubic_patch.h. Where unfolded parts overlap, the first in the order of rows and columns counts.
+// Its inverse, to rounding. Absent where no point of the grid that has not folded lights `s`; how sure that is:
+// invert() in bicubic_patch.h. Where unfolded parts overlap, the first in the order of rows and columns counts.
 std::optional<PixelPoint> image_from_screen(const GridMap& map, ScreenPoint s);
 
 }  // namespace lfd

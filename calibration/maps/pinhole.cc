@@ -98,9 +98,10 @@ std::optional<glm::dvec2> undistort(const PinholeMap& m, glm::dvec2 wanted) {
 }  // namespace
 
 Status validate(const PinholeMap& map) {
-  if (!is_finite(map.position)) return Error("position: must be finite");
-  for (const double place : {map.position.x, map.position.y, map.position.z}) {
-    LFD_TRY_STATUS(check_magnitude("position", place, kPlace_m));
+  for (const auto& [name, place] : {std::pair{"position: x", map.position.x}, std::pair{"position: y", map.position.y},
+                                    std::pair{"position: z", map.position.z}}) {
+    if (!std::isfinite(place)) return Error(fmt::format("{}: {} must be finite", name, place));
+    LFD_TRY_STATUS(check_magnitude(name, place, kPlace_m));
   }
   for (const auto& [name, value] : {std::pair{"focal_u_px", map.focal_u_px}, std::pair{"focal_v_px", map.focal_v_px}}) {
     if (!(value > 0) || !std::isfinite(value))

@@ -43,7 +43,7 @@ Daemon::Daemon(Options options, Links links, std::unique_ptr<wire::Context> cont
       stage_(std::move(stage)),
       assignment_(std::move(assignment)),
       members_(rules_of(options_.deployment)),
-      barrier_(options_.deployment.pacing.deadline),
+      barrier_(options_.idle ? Clock::duration::zero() : Clock::duration(options_.deployment.pacing.deadline)),
       pacing_(options_.deployment.pacing.frames_per_second, options_.idle) {}
 
 Status Daemon::run(StopSignals& signals) {
@@ -117,6 +117,7 @@ Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
       arrival.scene ? stage_.show(*std::move(arrival.scene)) : Result<proto::Update>(arrival.scene.error());
   if (update) {
     log::info("scene: {} is shown", stage_.store().state().scene().name());
+    for (const std::string& warning : stage_.warnings()) log::warn("scene: {}", warning);
     publish(*update);
     for (const Peer* peer : members_.peers()) {
       if (peer->lives() && !peer->last_heard) welcome(*peer, now);

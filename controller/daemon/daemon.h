@@ -24,7 +24,7 @@ class Daemon {
   struct Options {
     Deployment deployment;
     std::vector<std::string> only_modules;  // empty: all
-    bool idle = false;                      // no frame until frames are asked for
+    bool idle = false;                      // no frame until frames are asked for; those have no deadline
   };
 
   // Binds the sockets; nothing is loaded yet.
@@ -70,6 +70,7 @@ class Daemon {
   void publish_images_endpoint();
   std::string images_endpoint() const;
   std::vector<std::string> drawing_nodes() const;  // ready, and with modules
+  bool has_deadline() const { return options_.deployment.pacing.deadline.count() > 0 && !options_.idle; }
 
   // daemon_frames.cc: the life of frames
   void advance(Clock::time_point now);

@@ -54,7 +54,8 @@ void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
   barrier_.failed(peer.name, ready.frame());
   const std::string error = fmt::format("node \"{}\": frame {}: {}", peer.name, ready.frame(), ready.report().error());
   log::error("{}", error);
-  if (asked_ && ready.frame() >= asked_->first && asked_->error.empty()) asked_->error = error;
+  const bool is_open = !log_.last_swapped() || ready.frame() > *log_.last_swapped();
+  if (asked_ && is_open && ready.frame() >= asked_->first && asked_->error.empty()) asked_->error = error;
 }
 
 void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
@@ -78,8 +79,8 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   const bool shown = swapped && log_.all_shown(asked_->first, asked_->count);
   // A display that died, or that lost images to a deadline, will not show the frame.
   const Clock::duration patience = 6 * options_.deployment.pacing.heartbeat;
-  const bool may_drop = options_.deployment.pacing.deadline.count() > 0;
-  const bool never_shown = members_.display() == nullptr || (may_drop && last_swap_ && now - *last_swap_ > patience);
+  const bool never_shown =
+      members_.display() == nullptr || (has_deadline() && last_swap_ && now - *last_swap_ > patience);
   const bool stuck = barrier_.in_flight() == 0 && std::ranges::all_of(assignment_, [&](const auto& entry) {
                        return entry.second.empty() || members_.find(entry.first)->phase == Phase::kOut;
                      });

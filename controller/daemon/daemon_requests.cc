@@ -103,6 +103,7 @@ proto::Status Daemon::status(Clock::time_point now) const {
   *status.mutable_roi() = state.roi();
   *status.mutable_render() = state.render();
   status.set_late_frames(log_.late_frames());
+  if (stage_.has_scene()) status.mutable_scene_warning()->Add(stage_.warnings().begin(), stage_.warnings().end());
   status.set_stale_modules(static_cast<std::uint32_t>(log_.stale_modules().size()));
   for (const Peer* peer : members_.peers()) {
     proto::PeerStatus& entry = *status.add_peer();

@@ -66,7 +66,6 @@ Result<Deployment> read_deployment(const Arguments& a) {
   if (!a.display.empty()) overrides.display = a.display;
   if (!a.scene.empty()) overrides.scene = a.scene;
   LFD_TRY(Deployment deployment, load_deployment(a.deployment, overrides));
-  LFD_TRY_STATUS(judge_calibration(a, deployment));
   if (!a.roi.empty()) {
     proto::RegionOfInterest& roi = *deployment.message.mutable_roi();
     roi.Clear();
@@ -86,9 +85,10 @@ int run(Arguments arguments) {
   start_log("controller", arguments.log_level);
   auto deployment = read_deployment(arguments);
   if (!deployment) return fail(deployment.error());
-  arguments.options.deployment = *std::move(deployment);
-  auto daemon = Daemon::open(std::move(arguments.options));
+  arguments.options.deployment = *deployment;
+  auto daemon = Daemon::open(std::move(arguments.options));  // first: whether its addresses are free is said at once
   if (!daemon) return fail(daemon.error());
+  if (const Status judged = judge_calibration(arguments, *deployment); !judged) return fail(judged.error());
   log::info("control {}", (*daemon)->control_endpoint());
   if (arguments.print_endpoint) {
     std::printf("lfd-controller: control %s\n", (*daemon)->control_endpoint().c_str());

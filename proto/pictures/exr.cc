@@ -15,6 +15,7 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "proto/pictures/exr_header.h"
 
 namespace lfd {
 namespace {
@@ -74,15 +75,11 @@ Imf::FrameBuffer slices(const ChannelNames& names, float* rgba, int width, int x
   return buffer;
 }
 
-Result<PictureF> read(Imf::InputFile& file, const ChannelNames& names, int most_side) {
+// The file's header has been checked.
+Result<PictureF> read(Imf::InputFile& file, const ChannelNames& names) {
   const auto& window = file.header().dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
                      height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (width < 1 || height < 1 || width > most_side || height > most_side ||
-      static_cast<std::size_t>(width * height) > kMaxPicturePixels) {
-    return Error(fmt::format("EXR: {} x {} pixels; at most {} are read, at most {} a side", width, height,
-                             kMaxPicturePixels, most_side));
-  }
   for (const std::string& name : names) {
     if (name.empty()) continue;
     const Imf::Channel* channel = file.header().channels().findChannel(name);
@@ -120,10 +117,11 @@ Result<std::string> encode_exr(const PictureF& picture) {
 }
 
 Result<PictureF> decode_exr_channels(std::string_view content, const ChannelNames& names, int most_side) {
+  LFD_TRY_STATUS(check_exr_header(content, most_side));
   try {
     MemoryIn in(content);
     Imf::InputFile file(in);
-    return read(file, names, most_side);
+    return read(file, names);
   } catch (const std::exception& error) {
     return Error(fmt::format("EXR: {}", error.what()));
   }
@@ -131,7 +129,8 @@ Result<PictureF> decode_exr_channels(std::string_view content, const ChannelName
 
 Result<PictureF> decode_exr(std::string_view content) { return decode_exr_channels(content, kChannels, kMostSide); }
 
-Result<std::vector<std::string>> exr_channels(std::string_view content) {
+Result<std::vector<std::string>> exr_channels(std::string_view content, int most_side) {
+  LFD_TRY_STATUS(check_exr_header(content, most_side));
   try {
     MemoryIn in(content);
     const Imf::InputFile file(in);

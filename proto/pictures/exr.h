@@ -17,11 +17,11 @@ namespace lfd {
 Result<std::string> encode_exr(const PictureF& picture);
 
 // Half floats are widened; the data window is the picture. Errors: damaged, a channel of the four is missing or
-// subsampled, more than kMaxPicturePixels.
+// subsampled, and what exr_header.h refuses before memory is taken.
 Result<PictureF> decode_exr(std::string_view file);
 
-// The names of all channels.
-Result<std::vector<std::string>> exr_channels(std::string_view file);
+// The names of all channels; sides beyond `most_side` are refused as below.
+Result<std::vector<std::string>> exr_channels(std::string_view file, int most_side);
 
 // The same as decode_exr for channels of other names in place of R, G, B, A; an empty name leaves its numbers 0. Sides
 // beyond `most_side` are refused before memory is taken.

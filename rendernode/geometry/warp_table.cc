@@ -200,7 +200,12 @@ WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std:
         continue;
       }
       tables.of_module.emplace_back(warp_table(display, module, tables.level));
-      are_true = are_true && tables.of_module.back()->error_px <= kTableTolerance_px;
+      const double error_px = tables.of_module.back()->error_px;
+      are_true = are_true && error_px <= kTableTolerance_px;
+      if (level == 0 && tables.level == kFinest && error_px > kMostTableError_px) {
+        tables.of_module.resize(modules.size());  // it will be refused: the others need no table
+        return tables;
+      }
       if (level == 0 && !are_true && tables.level < kFinest) break;  // a finer one is needed anyway
     }
     if (level != 0 || are_true || tables.level == kFinest) return tables;
@@ -210,7 +215,12 @@ WarpTables warp_tables(const DisplayCalibration& display, const std::vector<std:
 Result<std::vector<std::string>> warnings_of(const WarpTables& tables, const std::vector<std::uint32_t>& modules) {
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < modules.size(); ++i) {
-    if (!tables.of_module[i] || tables.of_module[i]->error_px <= kTableTolerance_px) continue;
+    if (!tables.of_module[i]) continue;
+    if (const double border_px = tables.of_module[i]->border_error_px; border_px > kMostTableError_px) {
+      warnings.push_back(fmt::format("module {}: at the border of what was measured its table is up to {:.2g} px off",
+                                     modules[i], border_px));
+    }
+    if (tables.of_module[i]->error_px <= kTableTolerance_px) continue;
     const std::string off = fmt::format("module {}: a table of {} columns is up to {:.2g} px off its measured map",
                                         modules[i], tables.columns(), tables.of_module[i]->error_px);
     if (tables.of_module[i]->error_px > kMostTableError_px)

@@ -12,7 +12,9 @@
 
 namespace lfd {
 
-// How far, in pixels, a table should be from the map that it stands for, and how far it may be.
+// How far, in pixels, a table should be from the map that it stands for, and how far it may be, in cells whose corners
+// were all measured. At holes, folds and the border of what was measured a table ends in straight lines; there it is
+// said how far it is off, and warned of beyond the second number.
 inline constexpr double kTableTolerance_px = 0.005, kMostTableError_px = 0.1;
 
 // image(s) = base s + residual(s), the residual bilinear between nodes over the screen and a margin around it, and that

@@ -106,20 +106,21 @@ Result<std::unique_ptr<Context>> Context::create(int gpu) {
     return Error(fmt::format("gpu {}: there are {} (see lfd-rendernode --list-gpus)", gpu, found.size()));
   }
   std::string reasons;
-  const auto attempt = [&reasons](EGLDisplay display) -> std::unique_ptr<Context> {
+  const auto attempt = [&reasons](EGLDisplay display, const std::string& platform) -> std::unique_ptr<Context> {
     auto context = std::unique_ptr<Context>(new Context);
     if (auto status = context->open(display); !status) {
       reasons += "; " + status.error().message();
       return nullptr;
     }
+    context->description_ += ", EGL " + platform;
     return context;
   };
   for (int i = 0; i < static_cast<int>(found.size()); ++i) {
     if (gpu >= 0 && i != gpu) continue;
-    if (auto context = attempt(device_display(found[static_cast<std::size_t>(i)]))) return context;
+    if (auto context = attempt(device_display(found[static_cast<std::size_t>(i)]), fmt::format("device {}", i))) return context;
   }
   if (gpu < 0) {
-    if (auto context = attempt(surfaceless_display())) return context;
+    if (auto context = attempt(surfaceless_display(), "surfaceless")) return context;
   }
   return Error("no usable OpenGL device" + reasons);
 }

@@ -73,6 +73,11 @@ Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view byt
   return {};
 }
 
+void AssetGatherer::not_found(const std::string& hash) {
+  under_way_ = std::max(0, under_way_ - 1);
+  if (const auto found = missing_.find(hash); found != missing_.end()) found->second = {};
+}
+
 void AssetGatherer::ask_again() {
   under_way_ = 0;
   for (auto& [hash, partial] : missing_) partial = {};

@@ -34,6 +34,10 @@ class AssetGatherer {
   // A piece came. An error says why it is of no use (nothing is lost: the asset is asked for again).
   Status piece_came(const proto::Chunk& chunk, std::string_view bytes);
 
+  // A piece that was asked for is not there: the controller shows another scene by now. The asset is asked for again,
+  // from its beginning, if it is still wanted then.
+  void not_found(const std::string& hash);
+
   // The link was lost: what was under way is asked for again.
   void ask_again();
 

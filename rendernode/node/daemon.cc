@@ -85,6 +85,7 @@ void Daemon::join_or_beat(Clock::time_point now) {
   next_words_ = now + (welcome_ ? heartbeat_ : Clock::duration(kJoinPause));
   proto::Envelope words;
   if (welcome_) {
+    if (!gatherer_.complete()) follow_assets();
     words.mutable_heartbeat()->set_state_hash(hears_state_ ? ready_hash_ : "");
   } else {
     auto* join = words.mutable_join();
@@ -137,7 +138,7 @@ Status Daemon::welcome(const proto::Welcome& message) {
   if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
   begun_.clear();
   waiting_.clear();
-  hashes_.clear();
+  states_.clear();
   gatherer_.ask_again();
   retire_drawing();
   if (!modules.empty())
@@ -183,7 +184,7 @@ void Daemon::hear_state() {
         break;
       case proto::Envelope::kBegin:
         follower_.pulse_came(envelope.begin().sequence());
-        begun_.push_back(envelope.begin());
+        begun_.push_back({envelope.begin(), follower_.state()});
         begin_frames();  // before the next update: a frame is drawn from the state it names
         break;
       case proto::Envelope::kPulse:
@@ -224,15 +225,20 @@ void Daemon::follow_assets() {
 
 void Daemon::hear_bulk() {
   if (!bulk_) return;
+  bool any_came = false;
   while (const auto message = bulk_->receive()) {
-    if (message->envelope.has_not_found())
-      log::warn("the controller has no asset {}", message->envelope.not_found().hash());
+    if (message->envelope.has_not_found()) {
+      log::info("the controller has no asset {} any more", message->envelope.not_found().hash());
+      gatherer_.not_found(message->envelope.not_found().hash());
+    }
     if (!message->envelope.has_chunk()) continue;
+    any_came = true;
     if (const Status came = gatherer_.piece_came(message->envelope.chunk(), message->payload.text()); !came) {
       log::warn("{}", came.error().message());
     }
   }
-  follow_assets();
+  // What is not found is not asked for again at once: news of the other scene is on its way.
+  if (any_came) follow_assets();
 }
 
 }  // namespace lfd::node

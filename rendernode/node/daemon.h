@@ -40,6 +40,17 @@ class Daemon {
   bool stop_drawing_within(Clock::duration patience);
 
  private:
+  // A frame that was announced and not yet given to the render thread, and the state that it is of.
+  struct Begun {
+    proto::BeginFrame begin;
+    std::shared_ptr<const proto::State> state;
+  };
+  // What each frame under way is drawn from.
+  struct FrameState {
+    std::shared_ptr<const proto::State> state;
+    std::string hash;
+  };
+
   Daemon(DaemonOptions options, std::unique_ptr<wire::Context> context, wire::Socket control)
       : options_(std::move(options)), context_(std::move(context)), control_(std::move(control)) {}
 
@@ -57,6 +68,7 @@ class Daemon {
 
   // daemon_frames.cc: frames and images
   void begin_frames();
+  bool is_overtaken(const Begun& begun) const;
   Status take_events();
   bool handed_on(const FrameEvent& event);
   std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
@@ -82,8 +94,8 @@ class Daemon {
   std::unique_ptr<RenderThread> drawing_;
   // Of earlier welcomes, still in a frame that nobody waits for.
   std::vector<std::unique_ptr<RenderThread>> retired_;
-  std::deque<proto::BeginFrame> begun_;          // announced, not yet given to the render thread
-  std::map<std::uint64_t, std::string> hashes_;  // of the state that each frame under way is drawn from
+  std::deque<Begun> begun_;
+  std::map<std::uint64_t, FrameState> states_;
   ImageOutbox outbox_;
   std::optional<FileSink> files_;
   std::deque<FrameEvent> waiting_;  // frames whose images wait for the outbox

@@ -1,5 +1,6 @@
 // Frames through the node: begin, drawn, ready, and the images on their way.
 #include "base/log.h"
+#include "proto/state.h"
 #include "rendernode/node/daemon.h"
 
 namespace lfd::node {
@@ -15,12 +16,27 @@ constexpr std::size_t kMostBegun = 8;
 // A frame is drawn as soon as its state is here; a node that is far behind passes the oldest over.
 void Daemon::begin_frames() {
   while (begun_.size() > kMostBegun) begun_.pop_front();
-  while (!begun_.empty() && drawing_ && ready_state_ && ready_state_->sequence() >= begun_.front().sequence()) {
-    const proto::BeginFrame& begin = begun_.front();
-    if (!drawing_->draw({begin.frame(), ready_state_, ready_assets_, begin.time_modules()})) return;
-    hashes_[begin.frame()] = ready_hash_;
+  while (!begun_.empty() && drawing_ && ready_state_ && ready_state_->sequence() >= begun_.front().begin.sequence()) {
+    const proto::BeginFrame& begin = begun_.front().begin;
+    if (is_overtaken(begun_.front())) {
+      proto::NodeReport report;
+      report.set_error("a newer state came before the assets of the frame's own");
+      say_ready(begin.frame(), std::move(report));
+    } else {
+      if (!drawing_->draw({begin.frame(), ready_state_, ready_assets_, begin.time_modules()})) return;
+      states_[begin.frame()] = {ready_state_, ready_hash_};
+    }
     begun_.pop_front();
   }
+}
+
+// Whether the state at hand would show something else than the frame's own: other nodes draw that one, and a frame
+// never mixes two.
+bool Daemon::is_overtaken(const Begun& begun) const {
+  if (begun.state == ready_state_ || begun.state == nullptr) return false;
+  proto::State own = *begun.state;
+  own.set_sequence(ready_state_->sequence());
+  return !same_message(own, *ready_state_);
 }
 
 Status Daemon::take_events() {
@@ -88,7 +104,7 @@ std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResu
     out.header.set_height_px(static_cast<std::uint32_t>(image.size.height));
     out.header.set_empty(image.empty);
     out.header.set_of_images(static_cast<std::uint32_t>(result.images.size()));
-    if (image.empty) *out.header.mutable_background() = ready_state_->render().background();
+    if (image.empty) *out.header.mutable_background() = states_.at(frame).state->render().background();
     if (image.kind == proto::POSITION) {
       out.header.mutable_position_origin()->set_x(result.position_origin.x);
       out.header.mutable_position_origin()->set_y(result.position_origin.y);
@@ -102,8 +118,8 @@ std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResu
 
 void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
   report.set_node(options_.name);
-  const auto hash = hashes_.extract(frame);
-  if (hash && report.error().empty()) report.set_state_hash(hash.mapped());
+  const auto drawn = states_.extract(frame);
+  if (drawn && report.error().empty()) report.set_state_hash(drawn.mapped().hash);
   proto::Envelope ready;
   ready.mutable_ready()->set_frame(frame);
   *ready.mutable_ready()->mutable_report() = std::move(report);

@@ -1,6 +1,7 @@
 // The sink `files`: a thread that writes the node's own images.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <set>
@@ -8,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/clock.h"
 #include "proto/wire/mailbox.h"
 #include "rendernode/node/image_outbox.h"
 
@@ -16,7 +18,7 @@ namespace lfd::node {
 class FileSink {
  public:
   explicit FileSink(std::filesystem::path folder) : folder_(std::move(folder)), worker_([this] { work(); }) {}
-  // What has been taken is still written.
+  // What has been taken is still written, for at most half a second and one more picture: the node has to end.
   ~FileSink();
 
   // Takes a frame's images; false where two frames wait already.
@@ -28,6 +30,7 @@ class FileSink {
   std::filesystem::path folder_;
   wire::Mailbox<std::vector<OutgoingImage>> frames_{2};
   std::set<std::string> causes_;  // of failures, logged already
+  std::atomic<Clock::time_point> give_up_at_{Clock::time_point::max()};
   std::jthread worker_;
 };
 

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <vector>
 
 #include "base/file.h"
@@ -16,10 +18,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-constexpr rlim_t kMemoryLimit_bytes = rlim_t{2} << 30;  // as -malloc_limit_mb of the fuzzers
+constexpr rlim_t kMemoryLimit_bytes = rlim_t{2} << 30;
+constexpr std::size_t kAllocationLimit_bytes = std::size_t{1} << 30;  // as -malloc_limit_mb of the fuzzers
 constexpr unsigned kFileLimit_s = 20;  // as their -timeout: for a loaded machine; all take milliseconds
 
 }  // namespace
+
+// An allocation that is refused could be caught, and the file be called damaged: here it ends the test.
+void* operator new(std::size_t size) {
+  if (size > kAllocationLimit_bytes) {
+    std::cerr << "wants " << size << " bytes at once" << std::endl;
+    std::abort();
+  }
+  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 int main(int argc, char** argv) {
   const rlimit limit{kMemoryLimit_bytes, kMemoryLimit_bytes};

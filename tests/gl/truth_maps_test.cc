@@ -40,11 +40,15 @@ class TruthOfMaps : public testing::TestWithParam<const char*> {
   void expect_true_of(const char* scene_name) const {
     const DisplayCalibration display = display_named(GetParam());
     const SceneData data = made_data(scene_name);
+    // Beside the observers' arc of a concave screen rays just touch it (above): there 0.16 % of the pixels are missed.
+    bench::MapBounds bounds;
+    if (GetParam() == std::string("concavegrid")) bounds.mismatch_share = 2e-3;
     expect_true({std::string(scene_name) + " on desk, " + GetParam(),
                  data,
                  display,
                  {3, 0, 7},
-                 whole_scene(data.scene, display)});
+                 whole_scene(data.scene, display),
+                 bounds});
   }
 };
 INSTANTIATE_TEST_SUITE_P(Displays, TruthOfMaps,

@@ -20,11 +20,11 @@ namespace {
 
 constexpr auto kStartPatience = std::chrono::seconds(20);
 
-DisplayCalibration small_display() {
+DisplayCalibration small_display(ImageSize image) {
   DisplayCalibration display;
   display.name = "small";
   display.screen = {1.6, 0.9};
-  display.image = {16, 8};
+  display.image = image;
   display.optics.diffuser = Diffuser::kLinear;
   display.optics.observer_height_m = 0;
   display.optics.observer_distance_m = 2;
@@ -50,8 +50,8 @@ int parent_of(int process) {
 
 }  // namespace
 
-Workbench::Workbench() {
-  const Status saved = save_calibration(folder() / "display.textproto", small_display());
+Workbench::Workbench(ImageSize image) {
+  const Status saved = save_calibration(folder() / "display.textproto", small_display(image));
   LFD_CHECK(saved, saved.error().message());
 }
 

@@ -8,13 +8,15 @@
 
 #include "base/process.h"
 #include "base/temporary_folder.h"
+#include "calibration/spaces/pixel.h"
 
 namespace lfd::harness {
 
-// A folder of its own that goes with the object. display.textproto in it is a display of four modules of 16 x 8 pixels.
+// A folder of its own that goes with the object. display.textproto in it is a display of four modules that stand 1 m
+// behind a screen of 1.6 x 0.9 m, each with images of so many pixels.
 class Workbench {
  public:
-  Workbench();
+  explicit Workbench(ImageSize image = {16, 8});
 
   const std::filesystem::path& folder() const { return folder_.path(); }
 

@@ -204,7 +204,8 @@ TEST(ControllerProcess, AnswersWithTheErrorOfANodeThatCannotDraw) {
 
 TEST(ControllerProcess, AnswersWithAnErrorWhereTheReportsFitIntoNoMessage) {
   const Workbench bench;
-  const auto controller = start_controller(bench.deployment(kQuick), {"--idle"});
+  // The nodes are silent while this process packs so long a report.
+  const auto controller = start_controller(bench.deployment("sink: NONE pacing { heartbeat_ms: 1000 }"), {"--idle"});
   PlayedNode left("left", controller.endpoint), right("right", controller.endpoint);
   left.habits.report_bytes = std::size_t{35} << 20;  // two of them exceed 64 MiB
   EXPECT_THAT(reply_to_two_frames(controller, {&left, &right}).error(), HasSubstr("ask for fewer frames"));

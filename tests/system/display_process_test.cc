@@ -1,12 +1,13 @@
 // lfd-display as a real process between a controller and nodes that the test plays.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <signal.h>
 #include <unistd.h>
 
-#include <csignal>
-#include <cstring>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -18,6 +19,7 @@
 #include "proto/pictures/png.h"
 #include "proto/wire/poll.h"
 #include "proto/wire/socket.h"
+#include "tests/harness/workbench.h"
 
 namespace lfd::display {
 namespace {
@@ -34,38 +36,17 @@ DisplayCalibration two_modules() {
   return display;
 }
 
-// A program of this repository as a child; killed at the end if it still runs.
-class Child {
- public:
-  explicit Child(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), LFD_BIN_DIR "/lfd-display");
-    std::vector<char*> pointers;
-    for (auto& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    ::execv(pointers[0], pointers.data());
-    ::_exit(127);
-  }
-  ~Child() {
-    if (pid_ <= 0) return;
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
+std::unique_ptr<Process> start_display(std::vector<std::string> arguments) {
+  return harness::start_program("lfd-display", std::move(arguments));
+}
 
-  void signal(int number) const { ::kill(pid_, number); }
-  int exit_code() {
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    pid_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-  }
-
- private:
-  pid_t pid_ = 0;
-};
+// Waits for the end of a process; 1000 and more: a signal ended it.
+int exit_code(Process& process) {
+  const auto exit = process.wait(kPatience);
+  if (!exit) ADD_FAILURE() << "it does not end: " << testing::PrintToString(process.lines());
+  if (!exit) return -1;
+  return exit->signal == 0 ? exit->code : 1000 + exit->signal;
+}
 
 class DisplayProcess : public testing::Test {
  protected:
@@ -174,7 +155,8 @@ class Node {
 
 TEST_F(DisplayProcess, WritesWholeFramesSaysSoAndQuits) {
   const fs::path out = folder_ / "out";
-  Child display({"--controller", control_.endpoint(), "--out", out.string(), "--log-level", "warn"});
+  const auto display =
+      start_display({"--controller", control_.endpoint(), "--out", out.string(), "--log-level", "warn"});
   Node node(context_, welcome());
   for (const std::uint64_t frame : {0, 1, 2}) {
     node.send_frame(frame, static_cast<std::uint8_t>(10 + frame));
@@ -194,7 +176,7 @@ TEST_F(DisplayProcess, WritesWholeFramesSaysSoAndQuits) {
   quit.mutable_quit()->set_reason("done");
   EXPECT_TRUE(state_.send(quit));
   expect(control_, [](const auto& e) { return e.has_leave(); });
-  EXPECT_EQ(display.exit_code(), 0);
+  EXPECT_EQ(exit_code(*display), 0);
 }
 
 TEST_F(DisplayProcess, WrittenFramesBecomeViewsAndSheets) {
@@ -206,58 +188,61 @@ TEST_F(DisplayProcess, WrittenFramesBecomeViewsAndSheets) {
   }
   const fs::path file = folder_ / "two.textproto", frames = folder_ / "frame-0000";
   ASSERT_TRUE(save_calibration(file, two_modules()));
-  Child view({"view", "--frames-dir", frames.string(), "--display", file.string(), "--eye", "-0.1,0,0.8", "--out",
-              (folder_ / "view.png").string(), "--width", "40"});
-  EXPECT_EQ(view.exit_code(), 0);
+  const auto view = start_display({"view", "--frames-dir", frames.string(), "--display", file.string(), "--eye",
+                                   "-0.1,0,0.8", "--out", (folder_ / "view.png").string(), "--width", "40"});
+  EXPECT_EQ(exit_code(*view), 0);
   const auto picture = read_png(folder_ / "view.png");
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->width, 40);
   EXPECT_EQ(picture->height, 30);
   EXPECT_EQ(picture->rgba[0], 200);
-  Child sheet({"sheet", "--frames-dir", frames.string(), "--out", (folder_ / "sheet.png").string()});
-  EXPECT_EQ(sheet.exit_code(), 0);
+  const auto sheet =
+      start_display({"sheet", "--frames-dir", frames.string(), "--out", (folder_ / "sheet.png").string()});
+  EXPECT_EQ(exit_code(*sheet), 0);
   EXPECT_TRUE(read_png(folder_ / "sheet.png"));
 }
 
 TEST_F(DisplayProcess, FramesGoOnWhereTheFolderCannotBeWritten) {
   ASSERT_TRUE(write_file(folder_ / "file", "in the way"));
-  Child display({"--controller", control_.endpoint(), "--out", (folder_ / "file").string(), "--log-level", "off"});
+  const auto display =
+      start_display({"--controller", control_.endpoint(), "--out", (folder_ / "file").string(), "--log-level", "off"});
   Node node(context_, welcome());
   for (const std::uint64_t frame : {7, 8}) {
     node.send_frame(frame, 1);
     swap(frame);
     EXPECT_EQ(expect(control_, [](const auto& e) { return e.has_shown(); }).envelope.shown().frame(), frame);
   }
-  display.signal(SIGTERM);
-  EXPECT_EQ(display.exit_code(), 0);
+  display->signal(SIGTERM);
+  EXPECT_EQ(exit_code(*display), 0);
 }
 
 TEST_F(DisplayProcess, EndsOnSignalsWhileTheControllerIsAwayOrHalfwayThroughAFrame) {
   for (const int number : {SIGTERM, SIGINT}) {
-    Child lonely({"--controller", "tcp://127.0.0.1:1", "--log-level", "off"});
-    Child joined({"--controller", control_.endpoint(), "--log-level", "off"});
+    const auto lonely = start_display({"--controller", "tcp://127.0.0.1:1", "--log-level", "info"});
+    ASSERT_TRUE(lonely->wait_for_line("controller at", std::chrono::seconds(20)));  // it hears signals from now on
+    const auto joined = start_display({"--controller", control_.endpoint(), "--log-level", "off"});
     Node node(context_, welcome());
     proto::Image image;
     image.set_width_px(kSize.width);
     image.set_height_px(kSize.height);
     image.set_of_images(2);
     node.send_image(image, std::make_shared<const std::string>(48, 'x'));
-    lonely.signal(number);
-    joined.signal(number);
-    EXPECT_EQ(joined.exit_code(), 0);
-    EXPECT_EQ(lonely.exit_code(), 0);
+    lonely->signal(number);
+    joined->signal(number);
+    EXPECT_EQ(exit_code(*joined), 0);
+    EXPECT_EQ(exit_code(*lonely), 0);
   }
 }
 
 TEST_F(DisplayProcess, JoinsAgainWhereTheControllerFellSilent) {
-  Child display({"--controller", control_.endpoint(), "--log-level", "off"});
+  const auto display = start_display({"--controller", control_.endpoint(), "--log-level", "off"});
   welcome();
   expect(control_, [](const auto& e) { return e.has_join(); });  // six silent heartbeats later
   welcome();
 }
 
 TEST_F(DisplayProcess, JoinsAgainWhereANewControllerDoesNotKnowIt) {
-  Child display({"--controller", control_.endpoint(), "--log-level", "off"});
+  const auto display = start_display({"--controller", control_.endpoint(), "--log-level", "off"});
   welcome();
   proto::Envelope stranger;
   stranger.mutable_refused()->set_reason("not a member of this cluster");
@@ -266,16 +251,17 @@ TEST_F(DisplayProcess, JoinsAgainWhereANewControllerDoesNotKnowIt) {
 }
 
 TEST_F(DisplayProcess, FailsWithTheReasonWhereItIsRefusedOrItsEndpointIsTaken) {
-  Child refused({"--controller", control_.endpoint(), "--log-level", "off"});
+  const auto refused = start_display({"--controller", control_.endpoint(), "--log-level", "off"});
   const auto join = expect(control_, [](const auto& e) { return e.has_join(); });
   proto::Envelope envelope;
   envelope.mutable_refused()->set_reason("another calibration");
   ASSERT_TRUE(control_.send_to(join.peer, envelope));
-  EXPECT_EQ(refused.exit_code(), 1);
-  Child clash({"--controller", control_.endpoint(), "--images", control_.endpoint(), "--log-level", "off"});
-  EXPECT_EQ(clash.exit_code(), 1);
-  Child wrong({"--no-such-option"});
-  EXPECT_EQ(wrong.exit_code(), 2);
+  EXPECT_EQ(exit_code(*refused), 1);
+  const auto clash =
+      start_display({"--controller", control_.endpoint(), "--images", control_.endpoint(), "--log-level", "off"});
+  EXPECT_EQ(exit_code(*clash), 1);
+  const auto wrong = start_display({"--no-such-option"});
+  EXPECT_EQ(exit_code(*wrong), 2);
 }
 
 }  // namespace

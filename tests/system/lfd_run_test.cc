@@ -5,59 +5,23 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "base/file.h"
-#include "cli/control_client.h"
-#include "tests/harness/workbench.h"
+#include "tests/system/running_cluster.h"
 
 namespace lfd::harness {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 constexpr auto kPatience = 60s;  // a software rasteriser starts slowly on a busy machine
 const std::string kQuick = "pacing { heartbeat_ms: 100 }";
-
-struct Running {
-  std::unique_ptr<Process> lfd;
-  std::string endpoint;
-};
-
-Running run_cluster(const std::filesystem::path& deployment) {
-  Running running{start_program("lfd", {"run", deployment}), ""};
-  const auto line = running.lfd->wait_for_line("running ", kPatience);
-  EXPECT_TRUE(line);
-  if (line) running.endpoint = line->substr(line->find("tcp://"));
-  return running;
-}
-
-Result<proto::Status> status_of(const Running& running) {
-  LFD_TRY(ControlClient client, ControlClient::connect(running.endpoint));
-  proto::Request request;
-  request.mutable_status();
-  LFD_TRY(const proto::Reply reply, client.ask(request, 5s));
-  return reply.status();
-}
-
-// Waits until all nodes take part and `frames` more frames have been swapped.
-testing::AssertionResult draws(const Running& running, std::uint64_t frames) {
-  const auto deadline = Clock::now() + kPatience;
-  std::optional<std::uint64_t> first;
-  while (Clock::now() < deadline) {
-    const auto status = status_of(running);
-    if (!status) return testing::AssertionFailure() << status.error().message();
-    const bool whole = status->frame() > 0 && status->stale_modules() == 0;
-    if (whole && !first) first = status->frame();
-    if (first && status->frame() >= *first + frames) return testing::AssertionSuccess();
-    running.lfd->wait(50ms);
-  }
-  return testing::AssertionFailure() << "no frame in time";
-}
+// Of the lines of `lfd run`, which names the children that it had to kill.
+const auto kNobodyWasKilled = Not(Contains(HasSubstr("it is killed")));
 
 // Processes need a moment to be gone from the process table after they were killed.
 bool none_left() {
@@ -70,14 +34,33 @@ TEST(LfdRun, EndsEverythingWithinTwoSecondsOfASignal) {
   const Workbench bench;
   for (const int signal : {SIGINT, SIGTERM}) {
     const Running running = run_cluster(bench.deployment(kQuick));
-    ASSERT_TRUE(draws(running, 2));
+    ASSERT_TRUE(draws(running.endpoint, 2));
     EXPECT_THAT(descendants_named("lfd"), SizeIs(5));  // lfd, controller, display, two nodes
     running.lfd->signal(signal);
     const auto exit = running.lfd->wait(2s);
     ASSERT_TRUE(exit);
     EXPECT_TRUE(exit->succeeded()) << exit->text();
     EXPECT_THAT(descendants_named("lfd"), IsEmpty());
+    EXPECT_THAT(running.lfd->lines(), kNobodyWasKilled);
   }
+}
+
+TEST(LfdRun, EndsEverythingWithinTwoSecondsInTheMiddleOfAFrame) {
+  // 8 radii of 256 samples over eight million pixels: many seconds of drawing on a software rasteriser.
+  const Workbench bench(ImageSize{2048, 1024});
+  const auto deployment = bench.deployment("sink: NONE render { ao { samples: 256 radii: 8 } }");
+  const Running running = run_cluster(deployment, {"--log-level", "debug"});
+  ASSERT_TRUE(says(*running.lfd, "frame 0: begin"));
+  ASSERT_TRUE(says(*running.lfd, "draws 2 modules with ", 2));
+  if (lines_with(*running.lfd, "llvmpipe") == 0) GTEST_SKIP() << "a GPU is done with the frame too soon";
+  ASSERT_FALSE(running.lfd->wait(1s));  // both nodes are in the middle of it then
+  running.lfd->signal(SIGINT);
+  const auto exit = running.lfd->wait(2s);
+  ASSERT_TRUE(exit);
+  EXPECT_TRUE(exit->succeeded()) << exit->text();
+  EXPECT_EQ(lines_with(*running.lfd, "frame 0: swap"), 0) << "the frame was done when the signal came";
+  EXPECT_THAT(descendants_named("lfd"), IsEmpty());
+  EXPECT_THAT(running.lfd->lines(), kNobodyWasKilled);
 }
 
 TEST(LfdRun, LeavesNoOrphanWhenItIsKilled) {
@@ -95,7 +78,7 @@ TEST(LfdRun, LeavesNoOrphanWhenItIsKilled) {
 TEST(LfdRun, SaysWhichChildDiedAndEndsTheOthers) {
   const Workbench bench;
   const Running running = run_cluster(bench.deployment(kQuick));
-  ASSERT_TRUE(draws(running, 1));
+  ASSERT_TRUE(draws(running.endpoint, 1));
   const std::vector<int> nodes = descendants_named("lfd-rendernode");
   ASSERT_THAT(nodes, SizeIs(2));
   ::kill(nodes.front(), SIGKILL);
@@ -112,8 +95,8 @@ TEST(LfdRun, RunsBesideAnother) {
   const Workbench bench;
   const Running first = run_cluster(bench.deployment(kQuick)), second = run_cluster(bench.deployment(kQuick));
   EXPECT_NE(first.endpoint, second.endpoint);
-  EXPECT_TRUE(draws(first, 2));
-  EXPECT_TRUE(draws(second, 2));
+  EXPECT_TRUE(draws(first.endpoint, 2));
+  EXPECT_TRUE(draws(second.endpoint, 2));
 }
 
 // The controller, its nodes and the display go in any order.
@@ -122,7 +105,7 @@ TEST(LfdRun, EndsWellWhenAClientQuits) {
   for (int round = 0; round < 3; ++round) {
     const Running running = run_cluster(bench.deployment(kQuick));
     if (round > 0) {
-      ASSERT_TRUE(draws(running, 1));
+      ASSERT_TRUE(draws(running.endpoint, 1));
     }
     const auto quit = start_program("lfd", {"ctl", "quit", "--controller", running.endpoint});
     const auto said = quit->wait(kPatience);
@@ -133,30 +116,6 @@ TEST(LfdRun, EndsWellWhenAClientQuits) {
     EXPECT_TRUE(exit->succeeded()) << running.lfd->lines().back();
   }
   EXPECT_TRUE(none_left());
-}
-
-TEST(LfdCtl, ChangesOnlyWhatIsGiven) {
-  const Workbench bench;
-  const Running running = run_cluster(bench.deployment(kQuick));
-  ASSERT_TRUE(draws(running, 1));
-  const auto change = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"ctl", "--controller", running.endpoint, "ao"});
-    const auto exit = start_program("lfd", arguments)->wait(kPatience);
-    EXPECT_TRUE(exit && exit->succeeded());
-    const auto status = status_of(running);
-    EXPECT_TRUE(status);
-    return status ? status->render().ao() : proto::AmbientOcclusion();
-  };
-  proto::AmbientOcclusion ao = change({"--samples", "4"});
-  EXPECT_EQ(ao.samples(), 4);
-  EXPECT_FALSE(ao.has_enabled());
-  EXPECT_FALSE(ao.blur().has_enabled());
-  ao = change({"--off", "--symmetric", "--no-blur"});
-  EXPECT_TRUE(ao.has_enabled() && !ao.enabled());
-  ao = change({"--samples", "2"});
-  EXPECT_TRUE(ao.has_enabled() && !ao.enabled());
-  EXPECT_TRUE(ao.point_symmetric());
-  EXPECT_TRUE(ao.blur().has_enabled() && !ao.blur().enabled());
 }
 
 class TakenAddress : public testing::TestWithParam<const char*> {};
@@ -170,7 +129,7 @@ TEST_P(TakenAddress, IsNamedWithItsOwnerAndTheFirstClusterLosesNothing) {
   const auto deployment = bench.deployment("sink: DISPLAY pacing { heartbeat_ms: 50 deadline_ms: 1000 } addresses { " +
                                            std::string(GetParam()) + ": \"" + endpoint + "\" }");
   const Running first = run_cluster(deployment);
-  ASSERT_TRUE(draws(first, 2));
+  ASSERT_TRUE(draws(first.endpoint, 2));
   const auto second = start_program("lfd", {"run", deployment});
   const auto exit = second->wait(2s);
   ASSERT_TRUE(exit);
@@ -178,10 +137,10 @@ TEST_P(TakenAddress, IsNamedWithItsOwnerAndTheFirstClusterLosesNothing) {
   const auto line = second->wait_for_line(endpoint, kPatience);
   ASSERT_TRUE(line);
   EXPECT_THAT(*line, HasSubstr(std::string(GetParam()) == "images" ? "(lfd-display)" : "(lfd-controller)"));
-  const auto before = status_of(first);
+  const auto before = status_at(first.endpoint);
   ASSERT_TRUE(before);
-  ASSERT_TRUE(draws(first, 2));
-  const auto status = status_of(first);
+  ASSERT_TRUE(draws(first.endpoint, 2));
+  const auto status = status_at(first.endpoint);
   ASSERT_TRUE(status);
   EXPECT_GT(status->frame(), before->frame());
   EXPECT_EQ(status->late_frames(), 0u);

@@ -45,6 +45,21 @@ CalibrationReport checked(const ScreenMap& map) {
   return check_calibration(display, 0.2);
 }
 
+// Rays of a pinhole that pass a narrow cylinder by light nothing, on the screen or beside it.
+TEST(Check, RaysThatMissACurvedScreenAreUnmapped) {
+  DisplayCalibration display = one_module();
+  display.screen.width_m = 0.4;
+  display.optics.screen_radius_m = 0.14;
+  PinholeMap pinhole = pinhole_of_ideal(display.screen, display.image, {0, 0, -0.6});
+  pinhole.focal_u_px = 200;  // 200 px wide: half of the image is 0.5 of the distance aside
+  display.modules[0] = {{0, 0, -0.6}, pinhole};
+  // The axis is 0.46 m away: tangent rays leave at asin(0.14 / 0.46), and u grows with the tangent.
+  const double tangent = std::tan(std::asin(0.14 / (0.6 - 0.14)));
+  const double unmapped = 1 - tangent * pinhole.focal_u_px / 100;
+  const CheckSampling sampling;
+  EXPECT_NEAR(check_calibration(display, 0.05).all.image_unmapped, unmapped, 2.0 / sampling.image_columns);
+}
+
 TEST(Check, TheIdealDisplayHasIdealNumbers) {
   const auto report = check_calibration(*make_display("640rc", 5), 0.2);
   EXPECT_LT(report.all.round_trip_max_px, 1e-9);

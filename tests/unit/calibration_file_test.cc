@@ -156,6 +156,24 @@ TEST_F(CalibrationFile, EveryBadFieldIsNamedWithItsLine) {
   }
 }
 
+// Numbers of a point, and nodes of a grid, have lines and names of their own.
+TEST_F(CalibrationFile, NestedNumbersAreNamedWithTheirOwnLine) {
+  const auto error = [&](std::string_view replacement) {
+    return error_with("emitter { x: 0.1 z: -0.6 } ideal {}", replacement);
+  };
+  EXPECT_THAT(error("emitter {\n x: 0.1\n y: nan\n z: -0.6 } ideal {}"),
+              StartsWith("wall.textproto:12: module 0: emitter: y: nan"));
+  EXPECT_THAT(error("emitter {\n x: 1e30\n z: -0.6 } ideal {}"),
+              StartsWith("wall.textproto:11: module 0: emitter: x: 1e+30"));
+  EXPECT_THAT(error("emitter {\n x: 0.1\n z: 0.6 } ideal {}"),
+              StartsWith("wall.textproto:12: module 0: emitter: z: 0.6"));
+  EXPECT_THAT(error_with("position { x: -0.1 z: -0.6 }", "position { x: -0.1\n y: inf\n z: -0.6 }"),
+              StartsWith("wall.textproto:17: module 2: pinhole: position: y: inf"));
+  EXPECT_THAT(error("emitter { z: -0.6 } grid { columns: 2 rows: 2 step_u_px: 1 step_v_px: 1\n s: -1\n s: 1\n s: -1\n"
+                    " s: 1e30\n y: 1\n y: 1\n y: -1\n y: -1 }"),
+              StartsWith("wall.textproto:14: module 0: grid: s 3: column 1, row 1: 1e+30 m"));
+}
+
 TEST_F(CalibrationFile, WithoutModulesIsRefused) {
   std::string text(kText);
   ASSERT_TRUE(write_file(file(), text.substr(0, text.find("module"))));

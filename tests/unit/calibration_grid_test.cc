@@ -199,9 +199,10 @@ TEST(Grid, RefusesWhatIsNoGridAndNamesTheNode) {
   EXPECT_THAT(refusal([](GridNodes& n) { n.step_u_px = 0; }), HasSubstr("step_u_px: 0"));
   EXPECT_THAT(refusal([](GridNodes& n) { n.step_v_px = kHole; }), HasSubstr("step_v_px: nan"));
   EXPECT_THAT(refusal([](GridNodes& n) { n.first_u_px = INFINITY; }), HasSubstr("first_u_px"));
-  EXPECT_THAT(refusal([](GridNodes& n) { n.node[7].x = 1e30; }), HasSubstr("node (column 2, row 1): (1e+30"));
-  EXPECT_THAT(refusal([](GridNodes& n) { n.node[7].y = -INFINITY; }), HasSubstr("node (column 2, row 1)"));
-  EXPECT_THAT(refusal([](GridNodes& n) { n.node[7].y = kHole; }), HasSubstr("one coordinate is missing"));
+  EXPECT_THAT(refusal([](GridNodes& n) { n.node[7].x = 1e30; }), HasSubstr("s 7: column 2, row 1: 1e+30 m"));
+  EXPECT_THAT(refusal([](GridNodes& n) { n.node[7].y = -INFINITY; }), HasSubstr("y 7: column 2, row 1: -inf m"));
+  EXPECT_THAT(refusal([](GridNodes& n) { n.node[7].y = kHole; }),
+              HasSubstr("y 7: column 2, row 1: is missing, the other coordinate"));
   EXPECT_THAT(refusal([](GridNodes& n) { n.node[8] = n.node[7]; }),
               HasSubstr("the same place of the screen as column 3"));
   EXPECT_THAT(refusal([](GridNodes& n) {

@@ -84,12 +84,12 @@ TEST_F(DeploymentFile, NodesWithoutListsShareEqually) {
   EXPECT_THAT(deployment->nodes[2].modules, ElementsAre(6, 7));
 }
 
-TEST_F(DeploymentFile, ANodeWithoutAListBesideOneWithIsASpare) {
+TEST_F(DeploymentFile, ANodeWithoutAListBesideOneWithIsRefused) {
   const auto deployment = load(
       "display: \"desk.textproto\" scene { made { name: \"x\" } }"
       "node { name: \"a\" modules: \"0-7\" } node { name: \"spare\" }");
-  ASSERT_TRUE(deployment);
-  EXPECT_THAT(deployment->nodes[1].modules, IsEmpty());
+  ASSERT_FALSE(deployment);
+  EXPECT_THAT(deployment.error().message(), testing::HasSubstr("node 1: modules: \"spare\" has none"));
 }
 
 TEST_F(DeploymentFile, AnotherDisplayIsSharedEqually) {

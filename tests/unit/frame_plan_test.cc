@@ -262,7 +262,8 @@ TEST(FramePlanVisibility, NoPointWithAnImageIsOutOfView) {
   std::uniform_real_distribution<double> side(-1, 1);
   auto made = make_display("640rc", 5);
   ASSERT_TRUE(made);
-  const DisplayCalibration displays[] = {*made, perturbed(*made, 2), reference::one_module(Diffuser::kConical)};
+  const DisplayCalibration displays[] = {*made, perturbed(*made, 2), reference::one_module(Diffuser::kConical),
+                                         *curved(*made, 0.9, false), *curved(perturbed(*made, 3), -4, true)};
   for (const DisplayCalibration& display : displays) {
     int seen = 0, dropped = 0;
     for (int i = 0; i < 3000; ++i) {

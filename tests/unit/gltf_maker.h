@@ -85,6 +85,15 @@ struct GltfMaker {
     return maker;
   }
 
+  // Gives the file an animation of one property of node 0: "translation", "rotation" or "scale".
+  void animate(const std::string& path, const std::string& interpolation, const std::vector<float>& times,
+               const std::vector<float>& values) {
+    const int input = add_floats(times, "SCALAR");
+    const int output = add_floats(values, path == "rotation" ? "VEC4" : "VEC3");
+    root["animations"] = {{{"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
+                           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+  }
+
   json& primitive() { return root["meshes"][0]["primitives"][0]; }
 
   // Its material, made on first use.

@@ -189,15 +189,16 @@ TEST(GridFiles, BadPfmSaysWhatIsWrong) {
 
 TEST(GridFiles, ChangedBytesNeverCrash) {
   PfmPixels pixels{3, 2, std::vector<float>(18, 0.5F)};
-  const std::string files[] = {print_pfm(pixels), print_grid_csv(asymmetric_nodes())};
-  const char* const names[] = {"g.pfm", "g.csv"};
+  const std::string files[] = {print_pfm(pixels), print_grid_csv(asymmetric_nodes()),
+                               *encode_exr({2, 2, std::vector<float>(16, 0.5F)})};
+  const char* const names[] = {"g.pfm", "g.csv", "g.exr"};
   std::mt19937 random(1);
   for (int round = 0; round < 20000; ++round) {
-    std::string file = files[round % 2];
+    std::string file = files[round % 3];
     for (auto changes = random() % 4; changes > 0; --changes)
       file[random() % file.size()] = static_cast<char>(random());
     if (random() % 4 == 0) file.resize(random() % file.size());
-    const auto nodes = parse_grid_file(names[round % 2], file);
+    const auto nodes = parse_grid_file(names[round % 3], file);
     if (!nodes) continue;
     EXPECT_EQ(nodes->node.size(), static_cast<std::size_t>(nodes->columns) * static_cast<std::size_t>(nodes->rows));
   }
@@ -226,33 +227,6 @@ TEST_F(GridFolder, GridsLieBesideTheCalibration) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "copy-module-000.pfm"));
 }
 
-TEST(GridFiles, ExrHasChannelsRedAndGreenOrSAndY) {
-  PictureF picture{2, 2, {}};
-  picture.rgba = {-1, 1, 7, 7, 1, 1.5, 7, 7, -1.5, -1, 7, 7, 0.5, -1, 7, 7};
-  const auto file = encode_exr(picture);
-  ASSERT_TRUE(file);
-  const auto nodes = parse_grid_file("g.exr", *file);
-  ASSERT_TRUE(nodes) << nodes.error().message();
-  EXPECT_EQ(nodes->at(1, 0), (ScreenPoint{1, 1.5}));
-  EXPECT_EQ(nodes->at(0, 1), (ScreenPoint{-1.5, -1}));
-  // The same file with G called s and R called y: two channels may stand anywhere in it.
-  std::string renamed = *file;
-  const auto rename = [&renamed](char from, char to) {
-    const std::size_t at = renamed.find(std::string{from, '\0', '\2'});  // 2: float32
-    ASSERT_NE(at, renamed.npos);
-    renamed[at] = to;
-  };
-  rename('G', 's');
-  rename('R', 'y');
-  const auto swapped = parse_grid_file("g.exr", renamed);
-  ASSERT_TRUE(swapped) << swapped.error().message();
-  EXPECT_EQ(swapped->at(1, 0), (ScreenPoint{1.5, 1}));
-  rename('s', 'u');
-  EXPECT_EQ(error_of("g.exr", renamed), "EXR: no channel R");
-  EXPECT_THAT(error_of("g.exr", file->substr(0, file->size() / 2)), StartsWith("EXR: "));
-  EXPECT_THAT(error_of("g.exr", "no picture"), StartsWith("EXR: "));
-}
-
 TEST_F(GridFolder, ErrorsNameLineModuleAndFile) {
   write("good.csv", "column,row,s,y\n0,0,-1,1\n1,0,1,1\n0,1,-1,-1\n1,1,1,-1\n");
   write("bad.csv", "column,row,s,y\n0,0,-1,oops\n");
@@ -260,6 +234,12 @@ TEST_F(GridFolder, ErrorsNameLineModuleAndFile) {
   EXPECT_EQ(error_of_grid("file: \"good.csv\"" + steps), "");
   const std::string road = "wall.textproto:6: module 0: grid: file: ";
   EXPECT_THAT(error_of_grid("file: \"bad.csv\"" + steps), StartsWith(road + "bad.csv: 2: y: \"oops\""));
+  write("far.csv", "column,row,s,y\n0,0,-1,1\n1,0,1e30,1\n0,1,-1,-1\n1,1,1,-1\n");
+  EXPECT_THAT(error_of_grid("file: \"far.csv\"" + steps), StartsWith(road + "far.csv: 3: s: 1e+30 m; at most"));
+  write("same.csv", "column,row,s,y\n1,1,1,-1\n1,0,1,1\n0,1,-1,-1\n0,0,1,1\n");
+  EXPECT_THAT(error_of_grid("file: \"same.csv\"" + steps), StartsWith(road + "same.csv: 5: s: at the same place"));
+  write("half.pfm", print_pfm({2, 2, {-1, 1, 0, 1, 1, 0, -1, -1, 0, 1, -3e38F, 0}}));
+  EXPECT_THAT(error_of_grid("file: \"half.pfm\"" + steps), StartsWith(road + "half.pfm: pixel (1, 1): y: -3e+38 m"));
   EXPECT_THAT(error_of_grid("file: \"none.csv\"" + steps), StartsWith(road + "none.csv: "));
   EXPECT_THAT(error_of_grid("file: \"/etc/hostname\"" + steps), HasSubstr("must be relative"));
   EXPECT_THAT(error_of_grid("file: \"a/../../good.csv\"" + steps), HasSubstr("leaves the calibration file's folder"));

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <string>
 
+#include "base/log.h"
 #include "tests/unit/mpcdi_files.h"
 
 namespace lfd {
@@ -56,6 +58,32 @@ TEST(MpcdiBad, BadXmlSaysWhatIsWrongAndWhere) {
   EXPECT_THAT(error_of(archive_of(deep + "</MPCDI>")), HasSubstr("nested deeper than 32"));
 }
 
+TEST(MpcdiBad, WhatTheDisplayCannotBeIsSaidInTheFilesWords) {
+  struct Case {
+    std::string part, replacement, error;
+  };
+  // The extension begins where </MPCDI> stood.
+  const std::string line = fmt::format(
+      "f: mpcdi.xml:{}: ", 1 + std::count(kXml.begin(), kXml.begin() + static_cast<int>(kXml.find("</MPCDI>")), '\n'));
+  for (const Case& c : {
+           Case{"screenWidth=\"2.4\"", "screenWidth=\"-1\"", line + "screenWidth: -1 must be"},
+           Case{"screenHeight=\"1.4\"", "screenHeight=\"1e9\"", line + "screenHeight: 1000000000"},
+           Case{"screenRadius=\"0\"", "screenRadius=\"1e-30\"", line + "screenRadius: 1e-30"},
+           Case{"observerHeight=\"0\"", "observerHeight=\"1e30\"", line + "observerHeight: 1e+30"},
+           Case{"observerDistance=\"3\"", "observerDistance=\"0\"", line + "observerDistance: 0 must be"},
+           Case{"angularScattering=\"0.1\"", "angularScattering=\"9\"", line + "angularScattering: 9"},
+           Case{"observerArc=\"false\"", "observerArc=\"maybe\"", line + "observerArc: \"maybe\""},
+           Case{"observerArc=\"false\"", "observerArc=\"true\"", line + "observerArc: a planar screen"},
+           Case{" observerArc=\"false\"", "", line + "observerArc: \"\""},
+           Case{"> -150 <", "> 150 <", "f: mpcdi.xml:5: region left: coordinateFrame: posz: 1.5 must be negative"},
+           Case{">10<", ">1e300<", "f: mpcdi.xml:5: region left: coordinateFrame: posx: "},
+       }) {
+    const auto bad = import_mpcdi(archive_of(replaced(with_extension(), c.part, c.replacement)), "f", {});
+    ASSERT_FALSE(bad) << c.replacement;
+    EXPECT_THAT(bad.error().message(), StartsWith(c.error)) << c.replacement;
+  }
+}
+
 TEST(MpcdiBad, BadWarpsNameRegionAndPixel) {
   const std::string road = "f: mpcdi.xml:5: region left: warps/left.pfm: ";
   PfmPixels warp = asymmetric_warp();
@@ -72,7 +100,7 @@ TEST(MpcdiBad, BadWarpsNameRegionAndPixel) {
               StartsWith(road + "PFM: width: 1000000000"));
   EXPECT_THAT(error_of(archive_of(kXml, {2, 2, std::vector<float>(12, kNothing)})), StartsWith(road + "no cell"));
   EXPECT_THAT(error_of(archive_of(kXml, {2, 2, std::vector<float>(12, 0)})),
-              StartsWith(road + "node (column 0, row 0)"));
+              StartsWith(road + "s 0: column 0, row 0: at the same place"));
 }
 
 TEST(MpcdiBad, BadArchivesAreRefused) {

@@ -35,6 +35,15 @@ inline const std::string kXml = R"(<?xml version="1.0"?>
 </MPCDI>
 )";
 
+// The same with our extension, so that no other display need be given.
+inline std::string with_extension() {
+  const std::string extension = R"(<extensionSet><extension Name="x"><lightFieldDisplay name="n" screenWidth="2.4"
+    screenHeight="1.4" screenRadius="0" diffuser="linear" observerHeight="0" observerDistance="3" observerArc="false"
+    angularScattering="0.1"/></extension></extensionSet></MPCDI>)";
+  std::string text = kXml;
+  return text.replace(text.find("</MPCDI>"), 8, extension);
+}
+
 // Points of the plane z = 0 in centimetres, of which no two agree in either coordinate; rows from the top.
 inline PfmPixels asymmetric_warp() {
   return {3, 2, {-100, 50, 0, 10, 55, 0, 105, 60, 0, -110, -45, 0, 5, -50, 0, 100, -65, 0}};

@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "calibration/make.h"
+#include "calibration/make_color.h"
 #include "tests/unit/mpcdi_files.h"
 
 namespace lfd {
@@ -228,10 +229,7 @@ TEST(Mpcdi, OtherMapsAreLeftOutWithAWarning) {
 
 TEST(Mpcdi, WhatTheFileDoesNotSayIsAskedFor) {
   EXPECT_THAT(import_mpcdi(archive_of(kXml), "f", {}).error().message(), HasSubstr("a display like it must be given"));
-  const std::string extension = R"(<extensionSet><extension Name="x"><lightFieldDisplay name="n" screenWidth="2.4"
-    screenHeight="1.4" screenRadius="0" diffuser="linear" observerHeight="0" observerDistance="3" observerArc="false"
-    angularScattering="0.1"/></extension></extensionSet></MPCDI>)";
-  const std::string whole = replaced(kXml, "</MPCDI>", extension);
+  const std::string whole = with_extension();
   const auto import = import_mpcdi(archive_of(whole), "f", {});
   ASSERT_TRUE(import) << import.error().message();
   EXPECT_EQ(import->display.modules[0].emitter, (Emitter{0.1, -0.2, -1.5}));
@@ -240,6 +238,16 @@ TEST(Mpcdi, WhatTheFileDoesNotSayIsAskedFor) {
               AllOf(StartsWith("f: mpcdi.xml:5: region left: "), HasSubstr("where the emitter is")));
   EXPECT_THAT(import_mpcdi(archive_of(replaced(whole, "linear\" obs", "round\" obs")), "f", {}).error().message(),
               HasSubstr("diffuser: \"round\""));
+}
+
+// MPCDI has no place for it; who imports with the display that was exported keeps it.
+TEST(Mpcdi, TheDisplayGivenGivesItsColourToo) {
+  DisplayCalibration display = like();
+  display.modules[0].color = colored(display, 3).modules[0].color;
+  const auto import = import_like(archive_of(kXml), display);
+  ASSERT_TRUE(import) << import.error().message();
+  EXPECT_EQ(import->display.modules[0].color, display.modules[0].color);
+  EXPECT_TRUE(import->display.modules[0].color);
 }
 
 }  // namespace

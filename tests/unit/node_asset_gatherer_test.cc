@@ -99,6 +99,23 @@ TEST(AssetGatherer, PiecesThatDoNotFitAreRefused) {
   EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x')));  // absurd
 }
 
+// The controller shows another scene by the time it reads the request: nothing stays under way for ever.
+TEST(AssetGatherer, WhatIsNotFoundLeavesRoomForOthers) {
+  const Served old = served({210, 220, 230, 240, 250, 260, 270, 280, 290}), next = served({300});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(old.scene);
+  for (int round = 0; round < 5; ++round) {
+    const auto requests = gatherer.next_requests();
+    ASSERT_EQ(requests.size(), static_cast<std::size_t>(AssetGatherer::kPiecesUnderWay)) << "round " << round;
+    for (const auto& want : requests) gatherer.not_found(want.hash());
+  }
+  gatherer.want(next.scene);
+  for (int round = 0; round < 10 && !gatherer.complete(); ++round) {
+    for (const auto& want : gatherer.next_requests()) ASSERT_TRUE(answer(gatherer, next, want));
+  }
+  EXPECT_TRUE(gatherer.complete());
+}
+
 TEST(AssetGatherer, ALostLinkCostsNothing) {
   const Served s = served({450});
   AssetGatherer gatherer(kPiece);

@@ -15,10 +15,7 @@ constexpr double kFloatKeys = 1e-6;  // keys are stored as float
 GltfMaker moving(const std::string& path, const std::string& interpolation, const std::vector<float>& times,
                  const std::vector<float>& values) {
   GltfMaker maker = GltfMaker::triangle();
-  const int input = maker.add_floats(times, "SCALAR");
-  const int output = maker.add_floats(values, path == "rotation" ? "VEC4" : "VEC3");
-  maker.root["animations"] = {{{"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
-                               {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+  maker.animate(path, interpolation, times, values);
   return maker;
 }
 

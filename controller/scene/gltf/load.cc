@@ -48,6 +48,10 @@ class Loader {
       result.animations =
           Animations(std::move(nodes_.tree), std::move(channels_), std::move(instances_), std::move(lights_));
     }
+    if (untextured_ > 0) {
+      warnings_.push_back(fmt::format("{} primitives are drawn without the texture of their material (the first is {})",
+                                      untextured_, first_untextured_));
+    }
     result.warnings = std::move(warnings_);
     return result;
   }
@@ -140,8 +144,7 @@ class Loader {
     LFD_TRY(MeshArrays arrays, read_primitive(model_, primitive, material.uv_set));
     if (arrays.index.empty()) return Part{};
     if (material.uv_set >= 0 && arrays.uv.empty()) {
-      warnings_.push_back(
-          fmt::format("{}: its material has a texture, but it has no TEXCOORD_{}", place, material.uv_set));
+      if (untextured_++ == 0) first_untextured_ = fmt::format("{}: no TEXCOORD_{}", place, material.uv_set);
     }
     LFD_TRY(std::string mesh, scene_.add_mesh(std::move(arrays)));
     return Part{std::move(mesh), material.index};
@@ -159,6 +162,8 @@ class Loader {
   std::vector<PlacedInstance> instances_;
   std::vector<PlacedLight> lights_;
   Size total_;
+  int untextured_ = 0;  // primitives whose material has a texture that they have no place in
+  std::string first_untextured_;
   std::vector<std::string> warnings_;
 };
 

@@ -1,0 +1,54 @@
+// A cluster that runs: how it is started, and how its status and its lines are waited for.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "proto/wire.pb.h"
+#include "tests/harness/workbench.h"
+
+namespace lfd::harness {
+
+// Of a test with a software rasteriser, which starts slowly on a busy machine; nothing is measured by it.
+inline constexpr std::chrono::seconds kClusterPatience{60};
+
+struct Running {
+  std::unique_ptr<Process> lfd;
+  std::string endpoint;  // of the controller
+};
+
+// `lfd run`, as soon as it says that it runs.
+Running run_cluster(const std::filesystem::path& deployment, std::vector<std::string> more = {});
+
+// The status of the controller at an endpoint.
+Result<proto::Status> status_at(const std::string& endpoint);
+
+// Asks for the status until `wanted` is true of it. A failure says what the last one was.
+testing::AssertionResult becomes(const std::string& endpoint,
+                                 const std::function<bool(const proto::Status& status)>& wanted);
+
+// Waits until all nodes take part and `frames` more frames have been swapped.
+testing::AssertionResult draws(const std::string& endpoint, std::uint64_t frames);
+
+// The peer of this name; an empty message where there is none.
+proto::PeerStatus peer_in(const proto::Status& status, const std::string& name);
+
+// Whether every node is ready with the controller's own state.
+bool all_nodes_follow(const proto::Status& status);
+
+// How many of the lines that the process has said so far contain `text`.
+std::ptrdiff_t lines_with(const Process& process, const std::string& text);
+
+// Waits until so many have; whether they have. Unlike Process::wait_for_line it passes over nothing.
+bool says(const Process& process, const std::string& text, std::ptrdiff_t times = 1);
+
+}  // namespace lfd::harness

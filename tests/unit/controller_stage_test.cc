@@ -1,0 +1,137 @@
+// The stage: what moves stands where the frame's time says, whatever frames were drawn before.
+#include "controller/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "tests/support/unwrapped.h"
+#include "tests/unit/gltf_maker.h"
+
+namespace lfd::controller {
+namespace {
+
+using test::GltfMaker;
+using test::loaded;
+using testing_support::unwrapped;
+
+// A triangle that goes 2 m along x in the first second and 1 m back in the second one.
+GltfMaker moving() {
+  GltfMaker maker = GltfMaker::triangle();
+  maker.animate("translation", "LINEAR", {0, 1, 2}, {0, 0, 0, 2, 0, 0, 1, 0, 0});
+  return maker;
+}
+
+// Four frames a second, on a screen of 1.6 x 0.9 m.
+Stage empty_stage() {
+  Deployment deployment;
+  deployment.display.screen = {1.6, 0.9};
+  deployment.animation_frames_per_second = 4;
+  return unwrapped(Stage::of(deployment));
+}
+
+Stage stage_with(const GltfMaker& maker) {
+  Stage stage = empty_stage();
+  EXPECT_TRUE(stage.show(loaded(maker)));
+  return stage;
+}
+
+// Where the triangle stands along x.
+double x_of(const proto::Scene& scene) { return scene.instance(0).world_from_mesh(3); }
+
+TEST(StageAnimate, ChangesNothingWhereNothingMoves) {
+  Stage empty = empty_stage(), still = stage_with(GltfMaker::triangle());
+  for (Stage* stage : {&empty, &still}) {
+    const std::uint64_t sequence = stage->store().sequence();
+    EXPECT_FALSE(stage->animate(3));
+    EXPECT_EQ(stage->store().sequence(), sequence);
+  }
+}
+
+TEST(StageAnimate, PlacesWhatMovesByTheFramesTimeRoundAndRound) {
+  Stage stage = stage_with(moving());
+  EXPECT_EQ(x_of(stage.store().state().scene()), 0);
+  // Every number here is exact in double precision.
+  for (const auto& [frame, x] : {std::pair<std::uint64_t, double>{0, 0.0},
+                                 {1, 0.5},
+                                 {2, 1.0},
+                                 {4, 2.0},
+                                 {5, 1.75},
+                                 {7, 1.25},
+                                 {8, 0.0},
+                                 {12, 2.0},
+                                 {8'000'000'001, 0.5}}) {
+    ASSERT_TRUE(stage.animate(frame));
+    EXPECT_EQ(x_of(stage.store().state().scene()), x) << "frame " << frame;
+  }
+}
+
+TEST(StageAnimate, UpdatesPlacesAlone) {
+  Stage stage = stage_with(moving());
+  const proto::State before = stage.store().state();
+  const RegionOfInterest roi = stage.roi();
+  const auto update = stage.animate(3);
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->sequence(), before.sequence() + 1);
+  ASSERT_EQ(update->instance_size(), 1);
+  EXPECT_EQ(update->instance(0).world_from_mesh(3), 1.5);
+  EXPECT_FALSE(update->has_scene());
+  EXPECT_FALSE(update->has_roi());
+  EXPECT_FALSE(update->has_render());
+  const proto::State& after = stage.store().state();
+  EXPECT_EQ(after.sequence(), update->sequence());
+  EXPECT_EQ(x_of(after.scene()), 1.5);
+  EXPECT_EQ(after.roi().SerializeAsString(), before.roi().SerializeAsString());
+  EXPECT_TRUE(stage.roi() == roi);
+}
+
+TEST(StageAnimate, DoesNotDependOnTheFramesBefore) {
+  Stage one = stage_with(moving()), other = stage_with(moving());
+  for (std::uint64_t frame = 1; frame <= 5; ++frame) {
+    ASSERT_TRUE(one.animate(frame));
+    EXPECT_NE(one.store().hash(), other.store().hash()) << "at rest it is as in frame 0";
+  }
+  ASSERT_TRUE(other.animate(5));
+  EXPECT_EQ(one.store().hash(), other.store().hash());
+}
+
+TEST(StageAnimate, TakesLightsAlongWithTheirNodes) {
+  GltfMaker maker = moving();
+  maker.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  maker.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  Stage stage = stage_with(maker);
+  const auto update = stage.animate(1);
+  ASSERT_TRUE(update);
+  const proto::Scene& scene = stage.store().state().scene();
+  ASSERT_EQ(scene.light_size(), 1);
+  EXPECT_EQ(scene.light(0).position().x(), 0.5);
+  EXPECT_EQ(x_of(scene), 0.5);
+}
+
+TEST(StageAnimate, StandsStillWithoutADuration) {
+  GltfMaker maker = GltfMaker::triangle();
+  maker.animate("translation", "STEP", {0}, {3, 0, 0});
+  Stage stage = stage_with(maker);
+  for (const std::uint64_t frame : {0, 1, 7}) {
+    ASSERT_TRUE(stage.animate(frame));
+    EXPECT_EQ(x_of(stage.store().state().scene()), 3);
+  }
+}
+
+// The state travels in one message: what does not fit is refused before anybody waits for it, and the old scene stays.
+TEST(StageShow, RefusesWhatNoMessageCanHold) {
+  Stage stage = stage_with(GltfMaker::triangle());
+  const std::string before = stage.store().hash();
+  LoadedScene crowd = loaded(GltfMaker::triangle());
+  for (int i = 0; i < 500'000; ++i) *crowd.data.scene.add_instance() = crowd.data.scene.instance(0);
+  const auto update = stage.show(std::move(crowd));
+  ASSERT_FALSE(update);
+  EXPECT_NE(update.error().message().find("nodes are sent at most 63 MiB"), std::string::npos)
+      << update.error().message();
+  EXPECT_EQ(stage.store().hash(), before);
+}
+
+}  // namespace
+}  // namespace lfd::controller
