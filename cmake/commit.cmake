@@ -1,4 +1,5 @@
 # Writes a header with the commit of the sources, and touches it only where it has changed.
+cmake_minimum_required(VERSION 3.25)
 execute_process(
   COMMAND git -C ${SOURCE_DIR} describe --always --dirty
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

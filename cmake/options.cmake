@@ -39,6 +39,17 @@ function(lfd_library name)
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
 endfunction()
 
+# lfd_precompile(TARGET HEADERS...): headers that cost most of its files seconds each. Files include what they need all the
+# same: the presets but release compile without.
+function(lfd_precompile target)
+  if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+    return()
+  endif()
+  # -fpch-preprocess: without it ccache keeps nothing that uses a precompiled header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+endfunction()
+
 # lfd_program(NAME SOURCES ... LINKS ...): one executable in bin/.
 function(lfd_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
