@@ -55,8 +55,7 @@ std::vector<EmitterDirection> emitter_directions(const DisplayCalibration& displ
   const auto is_same = [](const EmitterDirection& a, const EmitterDirection& b) {
     return b.angle_rad - a.angle_rad < kOneDirection_rad;
   };
-  const auto repeated = std::ranges::unique(directions, is_same);
-  directions.erase(repeated.begin(), repeated.end());
+  directions.erase(std::unique(directions.begin(), directions.end(), is_same), directions.end());
   return directions;
 }
 
