@@ -166,7 +166,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   frame->add_option("--ao-samples", a.options.ao_subset.samples, "Reference samples for each of them")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
-  frame->add_option("--ao-seed", a.options.ao_subset.seed, "Seed of both choices")->capture_default_str();
+  frame->add_option("--ao-seed", a.options.ao_subset.seed, "Seed of both choices")
+      ->check(seed_number())
+      ->capture_default_str();
   frame->add_option("--out", a.out, "Folder for frame.txt, frame.csv and frame.json");
   frame->add_flag("--json", a.json, "Print JSON instead of the table");
   add_bench_stability(*bench, exit_code);

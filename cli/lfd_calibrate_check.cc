@@ -149,7 +149,7 @@ int run_check(const CheckOptions& options) {
 
 void add_limits(CLI::App& command, AcceptanceLimits& limits) {
   const auto add = [&command](const char* name, double& limit, const char* what) {
-    command.add_option(name, limit, what)->capture_default_str()->check(CLI::NonNegativeNumber)->group("Limits");
+    command.add_option(name, limit, what)->capture_default_str()->check(number_within(0, 1e300))->group("Limits");
   };
   add("--max-round-trip-px", limits.round_trip_max_px, "Round trip image, screen, image: its maximum");
   add("--max-mirrored", limits.mirrored, "Share of a module's image that is mirrored, of 1");
@@ -179,7 +179,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
       ->add_option("--depth", options->depth_m,
                    "How far before and behind the screen the condition number is taken, m; without it a quarter of the "
                    "screen's width, at most half the way to emitters and observers")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1e-12, 1e12))
       ->type_name("M");
   command
       ->add_option(
@@ -196,7 +196,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->add_flag("--per-module", options->per_module, "A table of all modules as well");
   command->add_option("--plot", options->plot_folder, "Write pictures (SVG) into this folder")->type_name("DIR");
   command->add_option("--module", options->plot_module, "The module that pictures of one show; without it the worst")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_within(0, 1e300));
   add_limits(*command, options->limits);
 }
 

@@ -81,7 +81,9 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--points", options->points, "Points over each image")->type_name("UxV")->capture_default_str();
   command->add_flag("--sigma", simulation.write_sigma, "Write the noise as each observation's sigma");
-  command->add_option("--seed", simulation.seed, "Equal seeds give equal observations")->capture_default_str();
+  command->add_option("--seed", simulation.seed, "Equal seeds give equal observations")
+      ->check(seed_number())
+      ->capture_default_str();
 }
 
 void add_fit_command(CLI::App& app, int& exit_code) {
@@ -103,7 +105,7 @@ void add_fit_command(CLI::App& app, int& exit_code) {
       ->add_option("--emitter-sd", options->fit.emitter_sd_m,
                    "How well the start knows the emitters: standard deviation along each axis, m; 0.5 % of their "
                    "distance without it")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1e-12, 1e12))
       ->type_name("M");
   command->footer(
       "One optimisation over all modules, and the radius of a curved screen; then, where points held out say that it\n"

@@ -155,6 +155,7 @@ void add_make_command(CLI::App& app, int& exit_code) {
       ->add_option("--warp", options->warp_px,
                    "With --grid: bend each module's table smoothly by about so many pixels, as no lens does")
       ->needs(grid)
+      ->check(number_within(-1000, 1000))
       ->type_name("PX");
   add_grids_option(*command, options->grids);
   command->add_option("--out", options->out, "File to write; standard output without it")->type_name("FILE");
@@ -185,14 +186,14 @@ void add_import_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--tolerance", options->mpcdi.tolerance_m,
                    "MPCDI: how far points may be off the screen's surface, m")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1e-12, 1e12))
       ->type_name("M")
       ->capture_default_str();
   ThinningWish& thinning = options->mpcdi.thinning;
   command
       ->add_option("--tolerance-px", thinning.tolerance_px,
                    "MPCDI: how far thinning a warp to fewer nodes may move its points, px")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_within(0, 1e12))
       ->type_name("PX")
       ->capture_default_str();
   command->add_option("--nodes", thinning.most_nodes, "MPCDI: nodes of a map along each side at most, whatever is lost")

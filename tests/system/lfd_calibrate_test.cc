@@ -161,6 +161,9 @@ TEST(LfdCalibrate, LimitsGapsDepthAndHoles) {
   EXPECT_EQ(depth.exit_code, 1);
   EXPECT_THAT(depth.text, HasSubstr("missed: depth: the spot has doubled "));
   EXPECT_EQ(calibrate("check " + kDesk + " --max-holes -1").exit_code, 2);
+  // Whatever is compared with it would be accepted.
+  for (const char* option : {"--max-holes", "--min-coverage", "--min-depth", "--depth"})
+    EXPECT_EQ(calibrate("check " + kDesk + " " + option + " nan").exit_code, 2) << option;
 }
 
 TEST(LfdCalibrate, TakesTheConditionInTheRegionOfInterest) {
