@@ -80,7 +80,7 @@ int run(Arguments a) {
   const Status ended = (*daemon)->run(signals);
   const int code = ended ? kExitDone : fail(ended.error());
   // A driver call cannot be interrupted; a frame that takes longer than this is given up with the process.
-  const bool drawn = (*daemon)->stop_drawing_within(500ms);
+  const bool drawn = (*daemon)->stop_drawing_within(200ms);
   if (!drawn) {
     std::fflush(nullptr);
     std::_Exit(code);
