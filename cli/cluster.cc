@@ -17,11 +17,6 @@ constexpr std::string_view kEndpointLine = "lfd-controller: control ";
 constexpr auto kBindPatience = std::chrono::seconds(10);
 constexpr auto kLook = std::chrono::milliseconds(100);  // between looks at signals
 
-bool has_come(const StopSignals& signals) {
-  pollfd descriptor{.fd = signals.descriptor(), .events = POLLIN, .revents = 0};
-  return ::poll(&descriptor, 1, 0) == 1;
-}
-
 void print_line(const std::string& name, std::string_view line) {
   if (line.starts_with(kErrorMark)) return;
   static std::mutex one_at_a_time;  // children are heard on threads of their own
@@ -91,7 +86,7 @@ Status Cluster::add(const ClusterOptions& options, const std::string& name, std:
   return {};
 }
 
-Result<Cluster> Cluster::start(const ClusterOptions& options, const StopSignals& signals) {
+Result<Cluster> Cluster::start(const ClusterOptions& options, StopSignals& signals) {
   Cluster cluster;
   LFD_TRY(cluster.deployment_, load_deployment(options));
   LFD_TRY(const std::set<int> wanted, wanted_modules(options, cluster.deployment_));
@@ -102,7 +97,7 @@ Result<Cluster> Cluster::start(const ClusterOptions& options, const StopSignals&
   const auto deadline = Clock::now() + kBindPatience;
   while (!line && !controller.poll() && Clock::now() < deadline) {
     line = controller.wait_for_line(kEndpointLine, kLook);
-    if (line || !has_come(signals)) continue;
+    if (line || !signals.take()) continue;
     controller.stop(kStopPatience);
     return Error("ended by a signal before the controller was there");
   }

@@ -46,8 +46,8 @@ class Cluster {
  public:
   // Starts every process; they find each other in their own time. Lines of the children are printed on standard error
   // with their names. Errors: the deployment file, a program that is missing, a port that is taken (named with its
-  // owner).
-  static Result<Cluster> start(const ClusterOptions& options, const StopSignals& signals);
+  // owner), a signal before the controller is there.
+  static Result<Cluster> start(const ClusterOptions& options, StopSignals& signals);
 
   const Deployment& deployment() const { return deployment_; }
   const std::string& endpoint() const { return endpoint_; }     // of the controller

@@ -196,7 +196,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->add_flag("--per-module", options->per_module, "A table of all modules as well");
   command->add_option("--plot", options->plot_folder, "Write pictures (SVG) into this folder")->type_name("DIR");
   command->add_option("--module", options->plot_module, "The module that pictures of one show; without it the worst")
-      ->check(number_within(0, 1e300));
+      ->check(CLI::NonNegativeNumber);
   add_limits(*command, options->limits);
 }
 

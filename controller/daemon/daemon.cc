@@ -30,6 +30,7 @@ Membership::Rules rules_of(const Deployment& deployment) {
 Result<std::unique_ptr<Daemon>> Daemon::open(Options options) {
   LFD_TRY(Assignment assignment, assign_modules(options.deployment, options.only_modules));
   LFD_TRY(Stage stage, Stage::of(options.deployment));
+  if (options.idle) options.deployment.pacing.deadline = {};  // who asks for frames gets whole ones
   auto context = std::make_unique<wire::Context>();
   LFD_TRY(Links links, Links::open(*context, options.deployment.addresses));
   return std::unique_ptr<Daemon>(
@@ -43,7 +44,7 @@ Daemon::Daemon(Options options, Links links, std::unique_ptr<wire::Context> cont
       stage_(std::move(stage)),
       assignment_(std::move(assignment)),
       members_(rules_of(options_.deployment)),
-      barrier_(options_.idle ? Clock::duration::zero() : Clock::duration(options_.deployment.pacing.deadline)),
+      barrier_(options_.deployment.pacing.deadline),
       pacing_(options_.deployment.pacing.frames_per_second, options_.idle) {}
 
 Status Daemon::run(StopSignals& signals) {

@@ -70,7 +70,7 @@ class Daemon {
   void publish_images_endpoint();
   std::string images_endpoint() const;
   std::vector<std::string> drawing_nodes() const;  // ready, and with modules
-  bool has_deadline() const { return options_.deployment.pacing.deadline.count() > 0 && !options_.idle; }
+  bool has_deadline() const { return options_.deployment.pacing.deadline.count() > 0; }
 
   // daemon_frames.cc: the life of frames
   void advance(Clock::time_point now);

@@ -117,7 +117,8 @@ Result<std::unique_ptr<Context>> Context::create(int gpu) {
   };
   for (int i = 0; i < static_cast<int>(found.size()); ++i) {
     if (gpu >= 0 && i != gpu) continue;
-    if (auto context = attempt(device_display(found[static_cast<std::size_t>(i)]), fmt::format("device {}", i))) return context;
+    if (auto context = attempt(device_display(found[static_cast<std::size_t>(i)]), fmt::format("device {}", i)))
+      return context;
   }
   if (gpu < 0) {
     if (auto context = attempt(surfaceless_display(), "surfaceless")) return context;

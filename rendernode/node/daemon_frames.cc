@@ -33,10 +33,7 @@ void Daemon::begin_frames() {
 // Whether the state at hand would show something else than the frame's own: other nodes draw that one, and a frame
 // never mixes two.
 bool Daemon::is_overtaken(const Begun& begun) const {
-  if (begun.state == ready_state_ || begun.state == nullptr) return false;
-  proto::State own = *begun.state;
-  own.set_sequence(ready_state_->sequence());
-  return !same_message(own, *ready_state_);
+  return begun.state != nullptr && begun.state != ready_state_ && state_hash(*begun.state) != ready_hash_;
 }
 
 Status Daemon::take_events() {
