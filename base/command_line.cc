@@ -73,6 +73,16 @@ const CLI::App& deepest_parsed(const CLI::App& app) {
   return chosen.empty() ? app : deepest_parsed(*chosen.back());
 }
 
+template <class Number>
+CLI::Validator within(Number low, Number high, const std::string& what) {
+  const auto wrong = [low, high, what](const std::string& text) -> std::string {
+    Number number = 0;
+    if (CLI::detail::lexical_cast(text, number) && number >= low && number <= high) return "";
+    return fmt::format("{}; {}{} to {} are possible", text, what, low, high);
+  };
+  return CLI::Validator(wrong, fmt::format("{} to {}", low, high));
+}
+
 }  // namespace
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
@@ -142,32 +152,38 @@ CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<std::s
       }
     }
   };
-  return app.add_option_function<std::vector<std::string>>(name, take, description);
+  return app.add_option_function<std::vector<std::string>>(name, take, description)->allow_extra_args(false);
 }
 
 CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<double>& numbers, const std::string& form,
-                         const std::string& description) {
+                         const std::string& description, std::function<Status(const std::vector<double>&)> judge) {
   const int count = 1 + static_cast<int>(std::ranges::count(form, ','));
-  const auto take = [&numbers, name, form, count](const std::vector<double>& given) {
+  const auto take = [&numbers, name, form, count, judge = std::move(judge)](const std::vector<double>& given) {
     const bool whole = static_cast<int>(given.size()) == count;
     if (!whole) throw CLI::ValidationError(name, fmt::format("{} numbers; {} is expected", given.size(), form));
     if (!std::ranges::all_of(given, [](double number) { return std::isfinite(number); }))
       throw CLI::ValidationError(name, "every number must be finite");
+    if (const Status judged = judge(given); !judged) throw CLI::ValidationError(name, judged.error().message());
     numbers = given;
   };
   return app.add_option_function<std::vector<double>>(name, take, description)
       ->delimiter(',')
       ->expected(1, count)
+      ->allow_extra_args(false)
       ->type_name(form);
 }
 
-CLI::Validator number_within(double low, double high) {
-  const auto wrong = [low, high](const std::string& text) -> std::string {
-    double number = 0;
-    if (CLI::detail::lexical_cast(text, number) && number >= low && number <= high) return "";
-    return fmt::format("{}; {} to {} are possible", text, low, high);
+CLI::Validator number_within(double low, double high) { return within(low, high, ""); }
+
+CLI::Validator whole_number_within(std::int64_t low, std::int64_t high) {
+  return within(low, high, "whole numbers from ");
+}
+
+CLI::Validator file_ending(const std::string& ending) {
+  const auto wrong = [ending](const std::string& name) -> std::string {
+    return name.ends_with(ending) ? "" : fmt::format("{}: the name must end in {}", name, ending);
   };
-  return CLI::Validator(wrong, fmt::format("{} to {}", low, high));
+  return CLI::Validator(wrong, "*" + ending);
 }
 
 CLI::Validator seed_number() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -35,16 +36,24 @@ int end_of_output();
 void add_switch(CLI::App& app, const std::string& yes, const std::string& no, std::optional<bool>& value,
                 const std::string& description);
 
-// Words between commas, none of them empty; may be given several times.
+// Words between commas in one argument, none of them empty; may be given several times.
 CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<std::string>& words,
                       const std::string& description);
 
-// As many finite numbers between commas as `form` names ("X,Y,Z").
-CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<double>& numbers, const std::string& form,
-                         const std::string& description);
+// As many finite numbers between commas as `form` names ("X,Y,Z"), in one argument. `judge` may refuse them.
+CLI::Option* add_numbers(
+    CLI::App& app, const std::string& name, std::vector<double>& numbers, const std::string& form,
+    const std::string& description,
+    std::function<Status(const std::vector<double>&)> judge = [](const std::vector<double>&) { return Status(); });
 
 // A number from `low` to `high`; "nan" is none.
 CLI::Validator number_within(double low, double high);
+
+// The same for whole numbers.
+CLI::Validator whole_number_within(std::int64_t low, std::int64_t high);
+
+// The name of a file that ends so (".png").
+CLI::Validator file_ending(const std::string& ending);
 
 // A whole number that fits into 64 bits, without a sign.
 CLI::Validator seed_number();

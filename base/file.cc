@@ -2,6 +2,7 @@
 #include "base/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -49,11 +50,18 @@ bool write_stream(const fs::path& path, std::string_view content) {
 
 }  // namespace
 
-Result<std::string> read_file(const fs::path& path, std::size_t limit_bytes) {
+Status check_readable(const fs::path& path) {
   std::error_code failure;
   const auto status = fs::status(path, failure);
   if (!fs::exists(status)) return Error(fmt::format("{}: no such file", path.string()));
   if (!fs::is_regular_file(status)) return Error(fmt::format("{}: not a regular file", path.string()));
+  if (!may(path, R_OK)) return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  return {};
+}
+
+Result<std::string> read_file(const fs::path& path, std::size_t limit_bytes) {
+  LFD_TRY_STATUS(check_readable(path));
+  std::error_code failure;
   const auto size = fs::file_size(path, failure);
   if (failure) return Error(fmt::format("{}: {}", path.string(), failure.message()));
   if (size > limit_bytes)
@@ -107,6 +115,18 @@ Status make_folder(const fs::path& path) {
   if (failure) return Error(fmt::format("{}: cannot be made: {}", path.string(), failure.message()));
   if (!may(path, W_OK | X_OK)) return cannot_write(path);
   return {};
+}
+
+Result<FolderLock> FolderLock::take(const fs::path& folder) {
+  FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock.descriptor_ < 0) return Error(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
+  if (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) == 0) return lock;
+  if (errno == EWOULDBLOCK) return Error(fmt::format("{}: another process writes there", folder.string()));
+  return Error(fmt::format("{}: cannot be locked: {}", folder.string(), std::strerror(errno)));
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 }  // namespace lfd

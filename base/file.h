@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/result.h"
 
@@ -11,6 +12,9 @@ namespace lfd {
 
 // Reads a regular file of at most `limit_bytes`.
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit_bytes = std::size_t{1} << 31);
+
+// What is known before a file is read: it is missing, no regular file, or closed to this user.
+Status check_readable(const std::filesystem::path& path);
 
 // Writes beside a regular file, then renames: a reader sees the old content or the new one, never half. Symbolic links
 // are followed. What exists and is no regular file (a device, a pipe) is written to as it is. Errors: as
@@ -23,5 +27,21 @@ Status check_writable(const std::filesystem::path& path);
 
 // Makes a folder with all that leads to it, and tries whether files can be made in it.
 Status make_folder(const std::filesystem::path& path);
+
+// One process at a time works in a folder; the lock leaves no file there and ends with the process.
+class FolderLock {
+ public:
+  // Error: another process has it.
+  static Result<FolderLock> take(const std::filesystem::path& folder);
+
+  FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  FolderLock& operator=(FolderLock&&) = delete;
+  ~FolderLock();
+
+ private:
+  explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
+
+  int descriptor_;
+};
 
 }  // namespace lfd

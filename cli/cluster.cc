@@ -69,11 +69,16 @@ Result<Deployment> load_deployment(const ClusterOptions& options) {
 }
 
 Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment) {
+  const std::vector<int> unowned = unowned_modules(deployment);
   std::set<int> wanted;
   for (const std::string& text : options.modules) {
     auto range = parse_module_range(text, static_cast<int>(deployment.display.modules.size()));
     if (!range) return range.error().within("--module");
-    wanted.insert(range->begin(), range->end());
+    for (const int module : *range) {
+      if (std::ranges::binary_search(unowned, module))
+        return Error(fmt::format("--module: {}: no node of the deployment draws it", module));
+      wanted.insert(module);
+    }
   }
   return wanted;
 }

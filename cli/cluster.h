@@ -33,7 +33,8 @@ struct ClusterOptions {
 // The deployment with the files that the options put in its place.
 Result<Deployment> load_deployment(const ClusterOptions& options);
 
-// The modules that the options name; empty: all. Errors name what is no number, or no module of the display.
+// The modules that the options name; empty: all. Errors name what is no number, no module of the display, or of no
+// node.
 Result<std::set<int>> wanted_modules(const ClusterOptions& options, const Deployment& deployment);
 
 // The line of a program that says why it failed; printed with its end, not before.

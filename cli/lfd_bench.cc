@@ -92,14 +92,16 @@ void add_map_command(CLI::App& bench, int& exit_code) {
   map->add_option("DEPLOYMENT", a.options.deployment, "Deployment file (*.textproto)")->required();
   map->add_option("--out", a.out, "Folder for map.txt, map.csv, map.json and map-SCENE.svg")->required();
   map->add_option("--frames", a.options.frames, "How many frames of each way, in turn")
-      ->check(CLI::Range(1, 100000))
+      ->check(whole_number_within(1, 100000))
       ->capture_default_str();
   map->add_option("--module", a.options.modules, "Numbers of modules (default: the middle one, the first and the last)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   map->add_option("--scene", a.options.scenes,
                   "Show these glTF files, one after the other, instead of the deployment's scene; the bound in time is "
                   "for the first")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   map->add_option("--display", a.display, "Use this calibration file instead of the deployment's");
   map->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
 }
@@ -152,19 +154,19 @@ void add_bench_command(CLI::App& app, int& exit_code) {
                                 exit_code, [arguments] { return bench_frame(*arguments); });
   frame->add_option("DEPLOYMENT", a.options.deployment, "Deployment file (*.textproto)")->required();
   frame->add_option("--frames", a.options.frames, "How many frames of each kind")
-      ->check(CLI::Range(1, 1000000))
+      ->check(whole_number_within(1, 1000000))
       ->capture_default_str();
   frame->add_option("--module", a.options.module, "Number of the module (default: the middle one)");
   frame->add_option("--scene", a.scene, "Show this glTF file instead of the deployment's scene");
   frame->add_option("--display", a.display, "Use this calibration file instead of the deployment's");
-  add_numbers(*frame, "--roi", a.roi, kBoxForm,
-              "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
+  add_box(*frame, "--roi", a.roi, Box::kWorld,
+          "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
   frame->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
   frame->add_option("--ao-pixels", a.options.ao_subset.pixels, "Pixels whose ambient occlusion is judged")
-      ->check(CLI::Range(0, 100000000))
+      ->check(whole_number_within(0, 100000000))
       ->capture_default_str();
   frame->add_option("--ao-samples", a.options.ao_subset.samples, "Reference samples for each of them")
-      ->check(CLI::Range(1, 10000000))
+      ->check(whole_number_within(1, 10000000))
       ->capture_default_str();
   frame->add_option("--ao-seed", a.options.ao_subset.seed, "Seed of both choices")
       ->check(seed_number())

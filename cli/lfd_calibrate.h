@@ -14,8 +14,8 @@
 namespace lfd {
 
 // --grids pfm|csv: the nodes of measured maps go into files beside the one written.
-inline void add_grids_option(CLI::App& command, std::string& grids) {
-  command
+inline CLI::Option* add_grids_option(CLI::App& command, std::string& grids) {
+  return command
       .add_option("--grids", grids,
                   "Put the nodes of measured maps into files beside FILE: pfm (float32) or csv; inside without it")
       ->check(CLI::IsMember({"pfm", "csv"}));

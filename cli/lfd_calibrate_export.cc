@@ -55,6 +55,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command->add_option("--size", options->size, "MPCDI: pixels of each module's warp; the image's own size without it")
       ->expected(2)
+      ->check(whole_number_within(1, kMaxGridSide))
       ->type_name("WIDTH HEIGHT");
   add_grids_option(*command, options->grids);
 }

@@ -157,7 +157,7 @@ void add_make_command(CLI::App& app, int& exit_code) {
       ->needs(grid)
       ->check(number_within(-1000, 1000))
       ->type_name("PX");
-  add_grids_option(*command, options->grids);
+  add_grids_option(*command, options->grids)->needs(grid);
   command->add_option("--out", options->out, "File to write; standard output without it")->type_name("FILE");
 }
 
@@ -177,12 +177,8 @@ void add_import_command(CLI::App& app, int& exit_code) {
                    "MPCDI: calibration that gives the screen, the optics and the emitters of the modules, in the order "
                    "of the regions")
       ->type_name("DISPLAY");
-  command
-      ->add_option("--origin", options->origin,
-                   "MPCDI: where the origin of the file's points lies in physical space, m; what the file says without "
-                   "it")
-      ->expected(3)
-      ->type_name("X Y Z");
+  add_numbers(*command, "--origin", options->origin, "X,Y,Z",
+              "MPCDI: where the origin of the file's points lies in physical space, m; what the file says without it");
   command
       ->add_option("--tolerance", options->mpcdi.tolerance_m,
                    "MPCDI: how far points may be off the screen's surface, m")
@@ -197,7 +193,7 @@ void add_import_command(CLI::App& app, int& exit_code) {
       ->type_name("PX")
       ->capture_default_str();
   command->add_option("--nodes", thinning.most_nodes, "MPCDI: nodes of a map along each side at most, whatever is lost")
-      ->check(CLI::Range(2, kMaxGridSide))
+      ->check(whole_number_within(2, kMaxGridSide))
       ->type_name("N")
       ->capture_default_str();
   add_grids_option(*command, options->grids);

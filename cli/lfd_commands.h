@@ -14,8 +14,11 @@ void add_view_command(CLI::App& app, int& exit_code);
 void add_ctl_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 
-// How a box is written on a command line: centre and edge lengths.
-inline constexpr const char* kBoxForm = "CX,CY,CZ,SX,SY,SZ";
+// One of the boxes of a region of interest as CX,CY,CZ,SX,SY,SZ: centre and edge lengths. What no region of interest
+// can have is wrong use.
+enum class Box { kWorld, kPhysical };
+CLI::Option* add_box(CLI::App& app, const std::string& name, std::vector<double>& numbers, Box box,
+                     const std::string& description);
 
 // DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --accept-calibration, --module, --log-level.
 void add_cluster_options(CLI::App& command, ClusterOptions& options);
@@ -31,8 +34,9 @@ struct RenderOptions {
   bool time_modules = false;
 };
 
-// Starts a cluster, has it draw frames into the output folder, writes report.json there, and ends the cluster. Errors:
-// whatever failed; images that are missing; a signal.
+// Starts a cluster, has it draw frames into the output folder in place of those of an earlier render, writes
+// report.json there, and ends the cluster. Errors: whatever failed; images that are missing; a signal; another render
+// into the folder.
 Status render(const RenderOptions& options, StopSignals& signals);
 
 // "color,position,..." as the bits of RenderOptions::buffers. Errors name the one that is unknown and what was meant.

@@ -1,11 +1,12 @@
 // lfd ctl: looks at a running cluster and changes what it shows.
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 
 #include "base/log.h"
+#include "calibration/spaces/roi.h"
+#include "cli/ao_names.h"
 #include "cli/control_client.h"
 #include "cli/lfd_commands.h"
 #include "cli/runtime_file.h"
@@ -35,6 +36,12 @@ struct Arguments {
   std::optional<std::uint32_t> ao_seed;
   std::vector<double> ao_curve;
 };
+
+Status judge_orientation(const std::vector<double>& wxyz) {
+  RegionOfInterest turned;
+  turned.world_orientation = glm::dquat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  return validate(turned);
+}
 
 CLI::Validator endpoint_text() {
   const auto wrong = [](const std::string& text) {
@@ -99,23 +106,8 @@ Status change_roi(const Arguments& arguments) {
   return {};
 }
 
-using Ao = proto::AmbientOcclusion;
-const std::map<std::string, Ao::Generator> kGenerators{{"poisson-disk", Ao::POISSON_DISK},
-                                                       {"uniform", Ao::UNIFORM},
-                                                       {"jittered", Ao::JITTERED},
-                                                       {"latin-square", Ao::LATIN_SQUARE}};
-const std::map<std::string, Ao::Target> kTargets{{"ambient-light", Ao::AMBIENT_LIGHT},
-                                                 {"whole-color", Ao::WHOLE_COLOR}};
-
-template <class Enumeration>
-std::vector<std::string> names_of(const std::map<std::string, Enumeration>& values) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : values) names.push_back(name);
-  return names;
-}
-
 // The numbers given replace those in `ao`; the others stay.
-void merge_ao(const Arguments& arguments, Ao& ao) {
+void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   if (arguments.ao_enabled) ao.set_enabled(*arguments.ao_enabled);
   if (arguments.ao_radius_m) ao.set_radius_m(*arguments.ao_radius_m);
   if (arguments.ao_shell) ao.set_shell(*arguments.ao_shell);
@@ -130,8 +122,8 @@ void merge_ao(const Arguments& arguments, Ao& ao) {
     ao.mutable_curve()->set_c(arguments.ao_curve[2]);
   }
   if (arguments.ao_sigma_px) ao.mutable_blur()->set_sigma_px(*arguments.ao_sigma_px);
-  if (!arguments.ao_generator.empty()) ao.set_generator(kGenerators.at(arguments.ao_generator));
-  if (!arguments.ao_target.empty()) ao.set_target(kTargets.at(arguments.ao_target));
+  if (!arguments.ao_generator.empty()) ao.set_generator(kGeneratorNames.at(arguments.ao_generator));
+  if (!arguments.ao_target.empty()) ao.set_target(kTargetNames.at(arguments.ao_target));
 }
 
 Status change_ao(const Arguments& arguments) {
@@ -166,12 +158,12 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   add_switch(command, "--on", "--off", a.ao_enabled, "Switch it on");
   command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)")
       ->check(number_within(0, 1e30));
-  command.add_option("--samples", a.ao_samples, "Samples per radius")->check(CLI::Range(1, 256));
-  command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...)")->check(CLI::Range(1, 8));
+  command.add_option("--samples", a.ao_samples, "Samples per radius")->check(whole_number_within(1, 256));
+  command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...)")->check(whole_number_within(1, 8));
   command.add_option("--shell", a.ao_shell, "Inner radius of the shell of samples over the outer one")
       ->check(number_within(0, 1));
-  command.add_option("--generator", a.ao_generator, "Of the samples")->check(CLI::IsMember(names_of(kGenerators)));
-  command.add_option("--target", a.ao_target, "What is darkened")->check(CLI::IsMember(names_of(kTargets)));
+  command.add_option("--generator", a.ao_generator, "Of the samples")->check(CLI::IsMember(names_of(kGeneratorNames)));
+  command.add_option("--target", a.ao_target, "What is darkened")->check(CLI::IsMember(names_of(kTargetNames)));
   add_switch(command, "--symmetric", "--no-symmetric", a.ao_symmetric, "Samples in pairs that mirror each other");
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
   command.add_option("--seed", a.ao_seed, "Of the samples");
@@ -199,12 +191,12 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   add("status", "Print what is shown, and who takes part", print_status);
   CLI::App* roi = add("roi", "Change the region of interest, or print it", change_roi);
   CLI::Option* world =
-      add_numbers(*roi, "WORLD", a.roi, kBoxForm, "Centre and edge lengths in the world, metres (default: as it is)");
-  CLI::Option* physical = add_numbers(*roi, "--physical", a.physical_roi, kBoxForm,
-                                      "The same box in physical space (default: fitted to the screen)");
+      add_box(*roi, "WORLD", a.roi, Box::kWorld, "Centre and edge lengths in the world, metres (default: as it is)");
+  CLI::Option* physical = add_box(*roi, "--physical", a.physical_roi, Box::kPhysical,
+                                  "The same box in physical space (default: fitted to the screen)");
   CLI::Option* orientation =
       add_numbers(*roi, "--orientation", a.orientation, "W,X,Y,Z",
-                  "Unit quaternion that turns the box's axes into the world's (default: as it is)");
+                  "Unit quaternion that turns the box's axes into the world's (default: as it is)", judge_orientation);
   roi->add_flag("--whole", a.whole, "Show the whole scene, unturned, fitted to the screen")
       ->excludes(world, physical, orientation);
   add_ao_options(*add("ao", "Change ambient occlusion, or print it; what is not given stays", change_ao), a);

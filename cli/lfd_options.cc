@@ -1,8 +1,10 @@
 // Options that several subcommands of `lfd` share.
 #include <algorithm>
 
+#include "base/file.h"
 #include "base/log.h"
 #include "base/suggest.h"
+#include "calibration/spaces/roi.h"
 #include "cli/lfd_commands.h"
 
 namespace lfd {
@@ -14,14 +16,34 @@ const std::vector<std::string>& buffer_names() {
   return names;
 }
 
+// The box by itself: the other one of the region of interest has the same shape.
+Status judge_box(Box box, const std::vector<double>& numbers) {
+  const glm::dvec3 centre(numbers[0], numbers[1], numbers[2]), size(numbers[3], numbers[4], numbers[5]);
+  const bool has_shape = std::min({size.x, size.y, size.z}) > 0;
+  const glm::dvec3 unit_size = has_shape ? size / glm::length(size) : glm::dvec3(1);
+  RegionOfInterest roi;
+  if (box == Box::kWorld) {
+    roi = {{centre.x, centre.y, centre.z}, size, {1, 0, 0, 0}, {}, unit_size};
+  } else {
+    roi = {{}, unit_size, {1, 0, 0, 0}, {centre.x, centre.y, centre.z}, size};
+  }
+  return validate(roi);
+}
+
 }  // namespace
+
+CLI::Option* add_box(CLI::App& app, const std::string& name, std::vector<double>& numbers, Box box,
+                     const std::string& description) {
+  return add_numbers(app, name, numbers, "CX,CY,CZ,SX,SY,SZ", description,
+                     [box](const std::vector<double>& given) { return judge_box(box, given); });
+}
 
 void add_cluster_options(CLI::App& command, ClusterOptions& options) {
   command.add_option("DEPLOYMENT", options.deployment, "Deployment file (*.textproto)")->required();
   command.add_option("--scene", options.scene, "Show this glTF file instead of the deployment's scene");
   command.add_option("--display", options.display, "Use this calibration file instead of the deployment's");
-  add_numbers(command, "--roi", options.roi, kBoxForm,
-              "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
+  add_box(command, "--roi", options.roi, Box::kWorld,
+          "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
   command
       .add_option("--plan", options.plan,
                   "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need; default: the "
@@ -38,6 +60,10 @@ int do_with_cluster(const ClusterOptions& options, const std::function<Status(St
   StopSignals signals;
   const auto deployment = load_deployment(options);
   if (!deployment) return fail(deployment.error());
+  if (deployment->scene_file) {
+    if (const Status readable = check_readable(*deployment->scene_file); !readable)
+      return fail(readable.error().within("scene"));
+  }
   if (const auto wanted = wanted_modules(options, *deployment); !wanted) return wrong_use(wanted.error());
   const Status done = what(signals);
   return done ? kExitDone : fail(done.error());

@@ -1,5 +1,6 @@
 // lfd render: draws frames into files, reports, and leaves.
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -23,6 +24,24 @@ constexpr auto kWriteOut = std::chrono::seconds(30);    // for the display to en
 // reports per MiB.
 constexpr std::uint32_t kModuleReportsPerRequest = 32000;
 
+// Lines of progress on standard error, from time to time and where they say something new.
+class Progress {
+ public:
+  bool is_due() const { return Clock::now() >= next_; }
+
+  void show(const std::string& line) {
+    next_ = Clock::now() + kProgress;
+    if (line != last_) std::cerr << line << std::endl;
+    last_ = line;
+  }
+
+ private:
+  Clock::time_point next_ = Clock::now() + kProgress;
+  std::string last_;
+};
+
+std::string frames_text(std::uint32_t count) { return fmt::format("{} frame{}", count, count == 1 ? "" : "s"); }
+
 proto::Request frames_request(const RenderOptions& options, std::uint32_t count) {
   proto::Request request;
   request.mutable_frames()->set_count(count);
@@ -39,7 +58,6 @@ Result<proto::Status> ask_status(ControlClient& client) {
 }
 
 std::string progress(const proto::Status& status, std::uint32_t frames) {
-  if (status.sequence() == 0) return "the scene is being loaded";
   std::string waiting;
   for (const proto::PeerStatus& peer : status.peer()) {
     if (peer.state() != "ready" && peer.module_size() > 0)
@@ -68,33 +86,50 @@ Result<std::uint64_t> send_request(const proto::Request& request, Cluster& clust
   }
 }
 
-// Asks for `count` frames and waits for the reply, while it watches the children and the signals.
-Result<proto::Reply> await_frames(const RenderOptions& options, std::uint32_t count, Cluster& cluster,
-                                  ControlClient& client, ControlClient& watcher, StopSignals& signals) {
-  LFD_TRY(const std::uint64_t id, send_request(frames_request(options, count), cluster, client, signals));
-  auto next_progress = Clock::now() + kProgress;
-  std::string last;
+// Waits for the reply to a request, while it watches the children and the signals; `look` is called all the time.
+Result<proto::Reply> await_reply(const proto::Request& request, Cluster& cluster, ControlClient& client,
+                                 StopSignals& signals, const std::function<void()>& look) {
+  LFD_TRY(const std::uint64_t id, send_request(request, cluster, client, signals));
   while (true) {
     if (auto reply = client.receive(id, kLook)) {
       if (!reply->error().empty()) return Error(reply->error());
       return *std::move(reply);
     }
     LFD_TRY_STATUS(still_running(cluster, signals));
-    if (Clock::now() < next_progress) continue;
-    next_progress = Clock::now() + kProgress;
-    const auto status = ask_status(watcher);
-    if (!status) continue;  // a child that ended is seen in the next round
-    const std::string line = progress(*status, options.frames);
-    if (line != last) std::cerr << line << std::endl;
-    last = line;
+    look();
   }
 }
 
-// Makes the output folder, and takes away what an earlier render left there.
-Status prepare_folder(const std::filesystem::path& folder) {
-  LFD_TRY_STATUS(make_folder(folder));
+// Until the controller has loaded its scene. Errors: it cannot.
+Status await_scene(Cluster& cluster, ControlClient& client, StopSignals& signals) {
+  Progress shown;
+  proto::Request request;
+  request.mutable_status();
+  while (true) {
+    LFD_TRY(const proto::Reply reply, await_reply(request, cluster, client, signals, [] {}));
+    if (reply.status().sequence() > 0) return {};
+    if (shown.is_due()) shown.show("the scene is being loaded");
+    cluster.wait(signals, kLook);
+    LFD_TRY_STATUS(still_running(cluster, signals));
+  }
+}
+
+Result<proto::Reply> await_frames(const RenderOptions& options, std::uint32_t count, Cluster& cluster,
+                                  ControlClient& client, ControlClient& watcher, StopSignals& signals) {
+  Progress shown;
+  return await_reply(frames_request(options, count), cluster, client, signals, [&] {
+    if (!shown.is_due()) return;
+    const auto status = ask_status(watcher);
+    if (status) shown.show(progress(*status, options.frames));  // a child that ended is seen in the next round
+  });
+}
+
+// Takes away what an earlier render left in the output folder.
+Status clear_folder(const std::filesystem::path& folder) {
   LFD_TRY(const int frames, remove_frames(folder));
-  if (frames > 0) std::cerr << fmt::format("{}: {} frames of an earlier render are removed\n", folder.string(), frames);
+  if (frames > 0)
+    std::cerr << fmt::format("{}: {} of an earlier render {} removed\n", folder.string(),
+                             frames_text(static_cast<std::uint32_t>(frames)), frames == 1 ? "is" : "are");
   return {};
 }
 
@@ -116,7 +151,8 @@ Status check_images(const RenderOptions& options, const Cluster& cluster,
       return Error(fmt::format("frame {}: {} modules are stale", frame.frame(), frame.stale_module_size()));
     }
   }
-  if (frames.size() != options.frames) return Error(fmt::format("{} of {} frames", frames.size(), options.frames));
+  if (frames.size() != options.frames)
+    return Error(fmt::format("{} of {}", frames.size(), frames_text(options.frames)));
   if (count > 0) return Error(fmt::format("{} images are missing, the first is {}", count, missing));
   return {};
 }
@@ -124,6 +160,8 @@ Status check_images(const RenderOptions& options, const Cluster& cluster,
 Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals) {
   LFD_TRY(ControlClient client, ControlClient::connect(cluster.endpoint()));
   LFD_TRY(ControlClient watcher, ControlClient::connect(cluster.endpoint()));
+  LFD_TRY_STATUS(await_scene(cluster, watcher, signals));
+  LFD_TRY_STATUS(clear_folder(options.cluster.images));  // not before: without a scene nothing comes in its place
   std::vector<proto::FrameReport> frames;
   const auto modules = static_cast<std::uint32_t>(std::max<std::size_t>(1, cluster.modules().size()));
   const std::uint32_t most = std::max<std::uint32_t>(1, kModuleReportsPerRequest / modules);
@@ -136,6 +174,9 @@ Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals
   LFD_TRY(const proto::Status status, ask_status(watcher));
   std::vector<std::string> warnings(status.scene_warning().begin(), status.scene_warning().end());
   std::ranges::copy(warnings_of(frames, cluster.modules().size()), std::back_inserter(warnings));
+  if (const std::vector<int> unowned = unowned_modules(cluster.deployment()); !unowned.empty())
+    warnings.push_back(
+        fmt::format("modules {} stay dark: no node of the deployment draws them", module_ranges(unowned)));
   LFD_TRY_STATUS(write_file(report_path(options.cluster.images),
                             report_json(cluster.deployment(), status.scene(), frames, warnings)));
   LFD_TRY_STATUS(client.quit(kAnswerPatience));
@@ -148,6 +189,8 @@ Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals
 }  // namespace
 
 Status render(const RenderOptions& options, StopSignals& signals) {
+  LFD_TRY_STATUS(make_folder(options.cluster.images));
+  LFD_TRY(const FolderLock lock, FolderLock::take(options.cluster.images));
   ClusterOptions cluster_options = options.cluster;
   cluster_options.idle = true;
   LFD_TRY(Cluster cluster, Cluster::start(cluster_options, signals));
@@ -167,18 +210,15 @@ void add_render_command(CLI::App& app, int& exit_code) {
     if (!buffers) return wrong_use(buffers.error());
     arguments->options.buffers = *buffers;
     const RenderOptions& options = arguments->options;
-    const int code = do_with_cluster(options.cluster, [&](StopSignals& signals) -> Status {
-      LFD_TRY_STATUS(prepare_folder(options.cluster.images));
-      return render(options, signals);
-    });
+    const int code = do_with_cluster(options.cluster, [&](StopSignals& signals) { return render(options, signals); });
     if (code == kExitDone)
-      std::cout << fmt::format("{} frames in {}\n", options.frames, options.cluster.images.string());
+      std::cout << fmt::format("{} in {}\n", frames_text(options.frames), options.cluster.images.string());
     return code;
   });
   RenderOptions& options = arguments->options;
   add_cluster_options(*command, options.cluster);
   command->add_option("--frames", options.frames, "How many frames")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_number_within(1, 10000))
       ->capture_default_str();
   command->add_option("--out", options.cluster.images, "Folder for images and report.json")->required();
   add_list(*command, "--buffers", arguments->buffers,

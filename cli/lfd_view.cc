@@ -1,5 +1,4 @@
 // lfd view: what a viewer in front of the display sees.
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -9,6 +8,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/temporary_folder.h"
+#include "calibration/check/derivatives.h"
 #include "cli/lfd_commands.h"
 #include "proto/frame_files.h"
 
@@ -29,11 +29,10 @@ struct Arguments {
 // Before the point of the screen that is so far from its middle.
 std::vector<double> eye_on_observer_line(const DisplayCalibration& display, double place) {
   const Optics& optics = display.optics;
-  const double s = place * display.screen.width_m, radius = optics.screen_radius_m,
-               distance = optics.observer_distance_m;
-  if (!optics.observer_arc) return {s, optics.observer_height_m, distance};
-  return {(radius + distance) * std::sin(s / radius), optics.observer_height_m,
-          (radius + distance) * std::cos(s / radius) - radius};
+  const ScreenPoint before{place * display.screen.width_m, optics.observer_height_m};
+  const Point3<Physical> eye = optics.observer_arc ? point_before_screen(optics, before, optics.observer_distance_m)
+                                                   : Point3<Physical>{before.x, before.y, optics.observer_distance_m};
+  return {eye.x, eye.y, eye.z};
 }
 
 // Lets lfd-display make the picture from a frame's folder.
@@ -94,7 +93,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
           "In its place: before the screen's middle (0), on the observers' line, so many widths of the screen aside")
       ->check(number_within(-1, 1))
       ->excludes(eye);
-  command->add_option("--out", arguments->out, "PNG file to write")->required();
+  command->add_option("--out", arguments->out, "PNG file to write")->required()->check(file_ending(".png"));
   command->add_option("--frames-dir", arguments->frames,
                       "Use images that `lfd render` wrote: the folder of a frame, or its parent (then frame 0)");
 }

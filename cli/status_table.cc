@@ -1,7 +1,11 @@
 // Printing of status.
 #include "cli/status_table.h"
 
+#include <vector>
+
 #include "base/log.h"
+#include "cli/ao_names.h"
+#include "proto/deployment_file.h"
 #include "proto/settings.h"
 
 namespace lfd {
@@ -10,18 +14,6 @@ namespace {
 std::string vector_text(const proto::Vector& v) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x(), v.y(), v.z()); }
 
 }  // namespace
-
-std::string ranges_text(const google::protobuf::RepeatedField<std::uint32_t>& numbers) {
-  std::string text;
-  for (int first = 0; first < numbers.size();) {
-    int last = first;
-    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    if (!text.empty()) text += ",";
-    text += last == first ? fmt::format("{}", numbers[first]) : fmt::format("{}-{}", numbers[first], numbers[last]);
-    first = last + 1;
-  }
-  return text;
-}
 
 std::string roi_text(const proto::RegionOfInterest& roi) {
   const proto::Quaternion& q = roi.world_orientation();
@@ -39,17 +31,16 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
   const auto settings = read_settings(render);
   if (!settings) return settings.error().message() + "\n";
   const AoSettings& ao = settings->ao;
-  constexpr const char* kGenerators[] = {"poisson-disk", "uniform", "jittered", "latin-square"};
   return fmt::format(
       "occlusion  {}\nradius     {}, {} radii\nsamples    {} per radius, {}, shell from {:g}, seed {}{}\n"
       "curve      a {:g}, b {:g}, c {:g}\nblur       {}\ntarget     {}\n",
       ao.enabled ? "on" : "off",
       ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
                       : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
-      ao.radii, ao.samples, kGenerators[static_cast<int>(ao.generator)], ao.shell, ao.seed,
+      ao.radii, ao.samples, name_of(kGeneratorNames, message.generator()), ao.shell, ao.seed,
       ao.point_symmetric ? ", point-symmetric" : "", ao.curve_a, ao.curve_b, ao.curve_c,
       ao.blur_enabled ? fmt::format("sigma {:g} px", ao.blur_sigma_px) : "off",
-      ao.target == AoTarget::kAmbientLight ? "ambient-light" : "whole-color");
+      name_of(kTargetNames, message.target()));
 }
 
 std::string status_table(const proto::Status& status) {
@@ -70,9 +61,10 @@ std::string status_table(const proto::Status& status) {
   table += fmt::format("\n{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", "peer", "role", "state", "process", "state hash",
                        "modules");
   for (const proto::PeerStatus& peer : status.peer()) {
-    table += fmt::format("{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", peer.name(),
-                         peer.role() == proto::NODE ? "node" : "display", peer.state(), peer.process(),
-                         peer.state_hash(), ranges_text(peer.module()));
+    table +=
+        fmt::format("{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", peer.name(),
+                    peer.role() == proto::NODE ? "node" : "display", peer.state(), peer.process(), peer.state_hash(),
+                    module_ranges(std::vector<int>(peer.module().begin(), peer.module().end())));
   }
   return table;
 }

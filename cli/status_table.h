@@ -15,7 +15,4 @@ std::string roi_text(const proto::RegionOfInterest& roi);
 // What a node does with these settings, a line each.
 std::string ao_text(const proto::AmbientOcclusion& ao);
 
-// Ascending numbers in ranges: "0-3,7".
-std::string ranges_text(const google::protobuf::RepeatedField<std::uint32_t>& numbers);
-
 }  // namespace lfd

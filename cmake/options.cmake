@@ -39,15 +39,18 @@ function(lfd_library name)
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
 endfunction()
 
-# lfd_precompile(TARGET HEADERS...): headers that cost most of its files seconds each. Files include what they need all the
-# same: the presets but release compile without.
+# lfd_precompile(TARGET HEADERS...): headers that cost most of its files seconds each.
 function(lfd_precompile target)
-  if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
-    return()
-  endif()
   # -fpch-preprocess: without it ccache keeps nothing that uses a precompiled header.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   target_precompile_headers(${target} PRIVATE ${ARGN})
+endfunction()
+
+# The same in release builds only: so the other presets prove that files include what they need.
+function(lfd_precompile_in_release target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    lfd_precompile(${target} ${ARGN})
+  endif()
 endfunction()
 
 # lfd_program(NAME SOURCES ... LINKS ...): one executable in bin/.

@@ -80,21 +80,21 @@ void add_view(CLI::App& app, ViewOptions& options) {
   add_numbers(*command, "--eye", options.eye, "X,Y,Z",
               "Of the eye in physical metres; z is the distance from the screen")
       ->required();
-  command->add_option("--out", options.out, "PNG file to write")->required();
+  command->add_option("--out", options.out, "PNG file to write")->required()->check(file_ending(".png"));
   command
       ->add_option("--width", options.width_px, "Pixels over the screen's width (default: those of a module's image)")
-      ->check(CLI::Range(1, 8192));
+      ->check(whole_number_within(1, 8192));
   command->add_option("--height", options.height_px, "Pixels over the screen's height (default: square pixels)")
-      ->check(CLI::Range(1, 8192));
+      ->check(whole_number_within(1, 8192));
 }
 
 void add_sheet(CLI::App& app, SheetOptions& options) {
   auto* command =
       app.add_subcommand("sheet", "Put all modules of a frame that was written with --out into one picture");
   command->add_option("--frames-dir", options.frame_folder, "The frame's folder, e.g. out/frame-0000")->required();
-  command->add_option("--out", options.out, "PNG file to write")->required();
+  command->add_option("--out", options.out, "PNG file to write")->required()->check(file_ending(".png"));
   command->add_option("--tile-width", options.tile_width_px, "Pixels over each module's width")
-      ->check(CLI::Range(1, 8192))
+      ->check(whole_number_within(1, 8192))
       ->capture_default_str();
 }
 

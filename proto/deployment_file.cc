@@ -229,6 +229,30 @@ Result<std::vector<int>> parse_module_range(std::string_view text, int module_co
   return modules;
 }
 
+std::vector<int> unowned_modules(const Deployment& deployment) {
+  std::vector<bool> owned(deployment.display.modules.size());
+  for (const NodeShare& node : deployment.nodes) {
+    for (const int module : node.modules) owned[static_cast<std::size_t>(module)] = true;
+  }
+  std::vector<int> unowned;
+  for (std::size_t module = 0; module < owned.size(); ++module) {
+    if (!owned[module]) unowned.push_back(static_cast<int>(module));
+  }
+  return unowned;
+}
+
+std::string module_ranges(std::span<const int> modules) {
+  std::string text;
+  for (std::size_t first = 0; first < modules.size();) {
+    std::size_t last = first;
+    while (last + 1 < modules.size() && modules[last + 1] == modules[last] + 1) ++last;
+    if (!text.empty()) text += ",";
+    text += last == first ? fmt::format("{}", modules[first]) : fmt::format("{}-{}", modules[first], modules[last]);
+    first = last + 1;
+  }
+  return text;
+}
+
 std::vector<std::vector<int>> equal_shares(int module_count, int nodes) {
   LFD_CHECK(module_count >= 0 && nodes > 0, "shares need someone to take them");
   std::vector<std::vector<int>> shares(static_cast<std::size_t>(nodes));

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,12 @@ struct DeploymentOverrides {
 
 // Errors name file, line and field: `wall.textproto:14: node "b": modules: 17 is owned by node "a" already`.
 Result<Deployment> load_deployment(const std::filesystem::path& path, const DeploymentOverrides& overrides = {});
+
+// Modules of the display that no node draws, ascending.
+std::vector<int> unowned_modules(const Deployment& deployment);
+
+// Ascending numbers in ranges: "0-3,7".
+std::string module_ranges(std::span<const int> modules);
 
 // "0-15" or "17" as ascending numbers, each below `module_count`.
 Result<std::vector<int>> parse_module_range(std::string_view text, int module_count);

@@ -73,8 +73,7 @@ int run(Arguments a) {
   const auto deployment = load_deployment(a.deployment, overrides);
   if (!deployment) return fail(deployment.error());
   if (const Status completed = complete(a, *deployment); !completed) return wrong_use(completed.error());
-  if (const int gpus = gl::gpu_count(); a.options.gpu >= gpus)
-    return fail(Error(fmt::format("gpu {}: there are {} (see lfd-rendernode --list-gpus)", a.options.gpu, gpus)));
+  if (const Status known = gl::check_gpu(a.options.gpu); !known) return fail(known.error());
   auto daemon = Daemon::open(std::move(a.options));
   if (!daemon) return fail(daemon.error());
   const Status ended = (*daemon)->run(signals);

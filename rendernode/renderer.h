@@ -66,6 +66,8 @@ class Renderer {
   const std::vector<std::uint32_t>& modules() const { return modules_; }
   const std::string& description() const { return description_; }
   const RegionOfInterest& roi() const { return roi_; }
+  // The modules' maps as the GPU has them; there is a state.
+  const WarpTables& tables() const { return *tables_; }
 
  private:
   // One frame under way.

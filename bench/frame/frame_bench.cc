@@ -71,9 +71,7 @@ Status ask_renderer(Renderer& renderer, FrameSubject& subject) {
 }  // namespace
 
 Status check_options(const FrameBenchOptions& options) {
-  const int gpus = gl::gpu_count();
-  if (options.gpu >= gpus)
-    return Error(fmt::format("--gpu {}: there are {} (see lfd-rendernode --list-gpus)", options.gpu, gpus));
+  LFD_TRY_STATUS(gl::check_gpu(options.gpu));
   const auto deployment = load_deployment(options.deployment, options.overrides);
   if (!deployment) return {};
   if (const auto module = chosen_module(options, deployment->display); !module) return module.error();

@@ -12,7 +12,6 @@
 #include "bench/common/shown_scene.h"
 #include "bench/common/spread.h"
 #include "bench/reference/silhouette.h"
-#include "rendernode/geometry/warp_table.h"
 #include "rendernode/renderer.h"
 
 namespace lfd::bench {
@@ -101,7 +100,7 @@ Result<std::vector<Candidate>> candidates_of(const gl::Context& context, const D
     one.row.variant = variant.name;
     one.row.module = module;
     one.row.build_ms = milliseconds(Clock::now() - start);
-    const WarpTables tables = warp_tables(deployment.display, {module}, variant.render.warp_level());
+    const WarpTables& tables = one.renderer->tables();
     if (tables.of_module[0]) one.row.table = MeasuredTable{tables.columns(), tables.of_module[0]->error_px};
     candidates.push_back(std::move(one));
   }

@@ -25,14 +25,16 @@ struct MissingArea {
   }
 };
 
-// Of `share` of the image's area; a disc's middle, and all of a rectangle, lie in the image.
+// Of `share` of the image's area, all within the image: a rectangle, or a disc where one of that size fits.
 MissingArea missing_area(ImageSize image, double share, Random& random) {
   MissingArea area;
-  area.is_disc = random.unit() < 0.5;
   const double area_px2 = share * image.width * image.height;
+  const double radius_px = std::sqrt(area_px2 / std::numbers::pi);
+  area.is_disc = random.unit() < 0.5 && 2 * radius_px <= std::min(image.width, image.height);
   if (area.is_disc) {
-    area.half_width_px = area.half_height_px = std::sqrt(area_px2 / std::numbers::pi);
-    area.middle = {random.unit() * image.width, random.unit() * image.height};
+    area.half_width_px = area.half_height_px = radius_px;
+    area.middle = {radius_px + random.unit() * (image.width - 2 * radius_px),
+                   radius_px + random.unit() * (image.height - 2 * radius_px)};
   } else {
     // Neither side beyond the image's: the form is chosen between those limits.
     const double least = share * image.width, width = least + random.unit() * (image.width - least);

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,7 @@ struct LineCount {
   bool has_ended = false;
 };
 
+// An iterator that counts the lines it passes: nlohmann json says only in its errors where it is.
 class CountedText {
  public:
   using difference_type = std::ptrdiff_t;
@@ -55,80 +55,42 @@ class CountedText {
   LineCount* count_ = nullptr;
 };
 
-// The lines of the fields of the object at the top ("name"), and of the elements of their lists ("name[3]").
-class FieldLines {
- public:
-  explicit FieldLines(const LineCount& count) : count_(count) {}
-  std::map<std::string, int> take() { return std::move(lines_); }
-  const std::optional<Error>& beyond_double() const { return beyond_double_; }
-
-  // What json::sax_parse calls.
-  bool key(const std::string& name) {
-    if (depth_ == 1) {
-      field_ = name;
-      lines_.insert_or_assign(name, count_.line);
-    }
-    return true;
-  }
-  bool start_object(std::size_t) { return enter(); }
-  bool end_object() { return leave(); }
-  bool start_array(std::size_t) {
-    enter();
-    if (depth_ == 2) element_ = 0;
-    return true;
-  }
-  bool end_array() { return leave(); }
-  bool null() { return value(); }
-  bool boolean(bool) { return value(); }
-  bool number_integer(json::number_integer_t) { return value(); }
-  bool number_unsigned(json::number_unsigned_t) { return value(); }
-  bool number_float(json::number_float_t, const std::string&) { return value(); }
-  bool string(const std::string&) { return value(); }
-  bool binary(const json::binary_t&) { return value(); }
-  bool parse_error(std::size_t, const std::string&, const json::exception& exception) {
-    if (dynamic_cast<const json::out_of_range*>(&exception) != nullptr) {
-      const std::string field = depth_ == 2 ? fmt::format("{}[{}]", field_, element_) : field_;
-      beyond_double_ = Error(fmt::format("{}: {}: must be a number that a double can hold", count_.line, field));
-    }
-    return false;
-  }
-
- private:
-  bool enter() {
-    value();
-    ++depth_;
-    return true;
-  }
-  bool leave() {
-    --depth_;
-    return true;
-  }
-  bool value() {
-    if (depth_ == 2) lines_.insert_or_assign(fmt::format("{}[{}]", field_, element_++), count_.line);
-    return true;
-  }
-
-  const LineCount& count_;
-  std::map<std::string, int> lines_;
-  std::string field_;
-  std::optional<Error> beyond_double_;  // the first number that is
-  int depth_ = 0, element_ = 0;
+// The text's values, and the lines of the fields of the object at the top ("name") and of the elements of their lists
+// ("name[3]").
+struct ParsedText {
+  json object;
+  std::map<std::string, int> lines;
 };
 
-// Error: a number beyond any double. Other faults of the text are left to json::parse.
-Result<std::map<std::string, int>> lines_of_fields(std::string_view text) {
+// Error: a number beyond any double. Throws json::parse_error where the text is no JSON.
+Result<ParsedText> parse(std::string_view text) {
   LineCount count;
-  FieldLines fields(count);
-  json::sax_parse(CountedText(text.data(), count), CountedText(text.data() + text.size(), count), &fields);
-  if (fields.beyond_double()) return *fields.beyond_double();
-  return fields.take();
+  ParsedText parsed;
+  std::string field;
+  int element = -1;  // the next one of the field's list; -1: not in a list
+  const auto note = [&](int depth, json::parse_event_t event, json& value) {
+    using Event = json::parse_event_t;
+    if (depth == 1) {
+      if (event == Event::key) parsed.lines.insert_or_assign(field = value.get<std::string>(), count.line);
+      element = event == Event::array_start ? 0 : -1;
+    } else if (depth == 2 && element >= 0 && event != Event::array_end && event != Event::object_end) {
+      parsed.lines.insert_or_assign(fmt::format("{}[{}]", field, element++), count.line);
+    }
+    return true;
+  };
+  try {
+    parsed.object = json::parse(CountedText(text.data(), count), CountedText(text.data() + text.size(), count), note);
+  } catch (const json::out_of_range&) {
+    const std::string place = element >= 0 ? fmt::format("{}[{}]", field, element) : field;
+    return Error(fmt::format("{}: {}: must be a number that a double can hold", count.line, place));
+  }
+  return parsed;
 }
 
 // A model of which every error begins with a line and the field's name.
 class Model {
  public:
-  Model(std::string_view text, std::map<std::string, int> lines)
-      : object_(json::parse(text)), lines_(std::move(lines)) {}
+  explicit Model(ParsedText text) : object_(std::move(text.object)), lines_(std::move(text.lines)) {}
 
   Result<DisplayCalibration> read() const;
 
@@ -235,9 +197,9 @@ Result<DisplayCalibration> Model::read() const {
 
 Result<DisplayCalibration> import_holovizio_json(std::string_view text, const std::string& file) {
   try {
-    auto lines = lines_of_fields(text);
-    if (!lines) return Error(fmt::format("{}:{}", file, lines.error().message()));
-    auto display = Model(text, *std::move(lines)).read();
+    auto parsed = parse(text);
+    if (!parsed) return Error(fmt::format("{}:{}", file, parsed.error().message()));
+    auto display = Model(*std::move(parsed)).read();
     if (!display) return Error(fmt::format("{}:{}", file, display.error().message()));
     return display;
   } catch (const json::exception& failure) {

@@ -48,7 +48,7 @@ Result<Point3<Physical>> origin_of(const std::string& name, const DisplayCalibra
 
 // An error of the emitter that coordinateFrame's position has made.
 Error error_of_position(const Error& error) {
-  const std::string kRoad = "emitter: ";
+  constexpr std::string_view kRoad = "emitter: ";
   return Error("coordinateFrame: pos" + error.message().substr(kRoad.size()));
 }
 

@@ -23,9 +23,8 @@ namespace lfd {
 
 struct MpcdiImportOptions {
   // Gives name, screen, optics, angular scattering, emitters and colour; its modules are the file's regions in their
-  // order.
-  // Without it our own extension in the file gives the first four (files of export_mpcdi have it), and the regions'
-  // coordinateFrame positions are the emitters.
+  // order. Without it our own extension in the file gives the first four (files of export_mpcdi have it), and the
+  // regions' coordinateFrame positions are the emitters.
   const DisplayCalibration* like = nullptr;
   std::optional<Point3<Physical>> origin;  // where the file's origin is, in place of what the file says
   double tolerance_m = 1e-3;               // points may be so far off the screen's surface

@@ -29,6 +29,8 @@ Membership::Rules rules_of(const Deployment& deployment) {
 
 Result<std::unique_ptr<Daemon>> Daemon::open(Options options) {
   LFD_TRY(Assignment assignment, assign_modules(options.deployment, options.only_modules));
+  if (const std::vector<int> unowned = unowned_modules(options.deployment); !unowned.empty())
+    log::warn("modules {} stay dark: no node of the deployment draws them", module_ranges(unowned));
   LFD_TRY(Stage stage, Stage::of(options.deployment));
   if (options.idle) options.deployment.pacing.deadline = {};  // who asks for frames gets whole ones
   auto context = std::make_unique<wire::Context>();

@@ -29,9 +29,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--scene", a.scene, "Show this scene file instead of the deployment's");
   app.add_option("--display", a.display,
                  "Use this calibration file instead of the deployment's (modules in equal shares)");
-  app.add_option("--roi", a.roi, "Region of interest in the world: cx,cy,cz,sx,sy,sz (centre and edge lengths, metres)")
-      ->delimiter(',')
-      ->expected(6);
+  add_numbers(app, "--roi", a.roi, "CX,CY,CZ,SX,SY,SZ",
+              "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
   app.add_option("--plan", a.plan,
                  "\"everything\": leave nothing out; \"needed\": leave out what the scene does not need; default: the "
                  "deployment's")
@@ -41,8 +40,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag("--no-ao", a.no_ao, "Without ambient occlusion");
   app.add_flag("--accept-calibration", a.accept_calibration,
                "Show the display even where its calibration misses the limits of `lfd-calibrate check`");
-  app.add_option("--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)")
-      ->delimiter(',');
+  add_list(app, "--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)");
   app.add_flag("--idle", a.options.idle, "Draw no frame until a client asks for frames");
   app.add_flag("--print-endpoint", a.print_endpoint, "Print the control endpoint on standard output, once it is bound");
   add_log_level(app, a.log_level);

@@ -101,10 +101,8 @@ Status Context::open(void* display) {
 }
 
 Result<std::unique_ptr<Context>> Context::create(int gpu) {
+  LFD_TRY_STATUS(check_gpu(gpu));
   const auto found = devices();
-  if (gpu >= static_cast<int>(found.size())) {
-    return Error(fmt::format("gpu {}: there are {} (see lfd-rendernode --list-gpus)", gpu, found.size()));
-  }
   std::string reasons;
   const auto attempt = [&reasons](EGLDisplay display, const std::string& platform) -> std::unique_ptr<Context> {
     auto context = std::unique_ptr<Context>(new Context);
@@ -133,11 +131,16 @@ Context::~Context() {
   // The display itself stays initialised: EGL shares it within the process.
 }
 
-int gpu_count() { return static_cast<int>(devices().size()); }
+Status check_gpu(int gpu) {
+  if (gpu < 0) return {};
+  const std::size_t count = devices().size();
+  if (static_cast<std::size_t>(gpu) < count) return {};
+  return Error(fmt::format("gpu {}: there are {} (see lfd-rendernode --list-gpus)", gpu, count));
+}
 
 std::vector<Gpu> list_gpus() {
   std::vector<Gpu> gpus;
-  const int count = gpu_count();
+  const int count = static_cast<int>(devices().size());
   for (int i = count == 0 ? -1 : 0; i < count; ++i) {
     auto context = Context::create(i);
     gpus.push_back({i, context ? (*context)->description() : context.error().message(), static_cast<bool>(context)});

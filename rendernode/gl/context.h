@@ -19,8 +19,8 @@ struct Gpu {
 // All devices; where EGL lists none, the surfaceless platform.
 std::vector<Gpu> list_gpus();
 
-// How many there are, usable or not.
-int gpu_count();
+// Whether there is such a device, usable or not; below 0 none is named. Error: "gpu 3: there are 1 (see ...)".
+Status check_gpu(int gpu);
 
 // Current on the thread that made it until it is destroyed; it never changes threads. GL's debug output goes to the
 // log.

@@ -39,18 +39,6 @@ TEST(LfdRender, WritesImagesAndAReport) {
   EXPECT_TRUE(descendants_named("lfd").empty());
 }
 
-TEST(LfdRender, SaysAtOnceAndOnceWhyASceneCannotBeShown) {
-  const Workbench bench;
-  const auto lfd = start_program(
-      "lfd", {"render", bench.deployment(kQuick), "--scene", "none.glb", "--out", bench.folder() / "out"});
-  const auto exit = lfd->wait(5s);  // a client's patience with a controller that is not there is 10 s
-  ASSERT_TRUE(exit);
-  EXPECT_EQ(exit->code, 1);
-  const auto lines = lfd->lines();
-  EXPECT_EQ(std::ranges::count_if(lines, [](const auto& line) { return line.find("none.glb") != line.npos; }), 1);
-  EXPECT_THAT(lines.back(), HasSubstr("controller: exit code 1: scene: none.glb: no such file"));
-}
-
 TEST(LfdRender, LeavesNoFramesOfAnEarlierRender) {
   const Workbench bench;
   const auto out = bench.folder() / "out";

@@ -96,9 +96,9 @@ TEST(Simulation, SpoilsAsMuchAsAsked) {
   const auto made = simulate_observations(display, options);
   ASSERT_TRUE(made);
   const auto& points = made->observations.points;
-  // Discs may reach beyond the image; and of 10800 points, shares are within five standard deviations.
-  EXPECT_GT(points.size(), 0.89 * 4 * 60 * 45);
-  EXPECT_LT(points.size(), 0.98 * 4 * 60 * 45);
+  // An area of 4.5 of the 45 rows takes 4 or 5 of them: 1.1 % of all points.
+  EXPECT_NEAR(static_cast<double>(points.size()), 0.9 * 4 * 60 * 45, 0.02 * 4 * 60 * 45);
+  // Shares are within five standard deviations.
   EXPECT_NEAR(static_cast<double>(made->outliers.size()), 0.02 * static_cast<double>(points.size()),
               5 * std::sqrt(0.02 * static_cast<double>(points.size())));
   double squares = 0;
@@ -114,6 +114,12 @@ TEST(Simulation, SpoilsAsMuchAsAsked) {
     }
   }
   EXPECT_NEAR(std::sqrt(squares / (2.0 * static_cast<double>(points.size()))), 0.5, 0.02);
+}
+
+TEST(Simulation, SeesNothingWhereAllIsMissing) {
+  const auto made = simulate_observations(*make_display("desk", 4), {.outliers = 0, .missing = 1});
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->observations.points.size(), 0u);
 }
 
 TEST(Simulation, LineNumbersAreThoseOfTheFile) {

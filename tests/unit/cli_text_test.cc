@@ -17,14 +17,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string ranges(std::initializer_list<std::uint32_t> numbers) {
-  return ranges_text({numbers.begin(), numbers.end()});
-}
-
-TEST(StatusTable, WritesModulesAsRanges) {
-  EXPECT_EQ(ranges({}), "");
-  EXPECT_EQ(ranges({7}), "7");
-  EXPECT_EQ(ranges({0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
+TEST(ModuleRanges, AreWrittenShort) {
+  EXPECT_EQ(module_ranges({}), "");
+  EXPECT_EQ(module_ranges(std::vector{7}), "7");
+  EXPECT_EQ(module_ranges(std::vector{0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
 }
 
 TEST(Buffers, AreBitsInTheOrderOfTheirKinds) {

@@ -62,6 +62,19 @@ TEST_F(Files, AreRefusedWhereTheyCannotBe) {
   EXPECT_EQ(*read_file(folder_ / "a"), "kept");
 }
 
+TEST_F(Files, HaveTheirFolderToOneWriterAtATime) {
+  {
+    const auto first = FolderLock::take(folder_);
+    ASSERT_TRUE(first);
+    const auto second = FolderLock::take(folder_);
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message(), HasSubstr("another process writes there"));
+  }
+  EXPECT_TRUE(FolderLock::take(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_FALSE(FolderLock::take(folder_ / "none"));
+}
+
 TEST_F(Files, OfEarlierFramesAreRemovedAndNoOthers) {
   const fs::path out = folder_ / "out";
   for (int frame : {0, 1}) ASSERT_TRUE(make_folder(frame_path(out, static_cast<std::uint64_t>(frame))));
