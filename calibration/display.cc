@@ -56,6 +56,11 @@ std::optional<ScreenPoint> pinhole_on_screen(const Optics& optics, const Pinhole
 
 Status validate_module(const DisplayCalibration& display, const ModuleCalibration& module) {
   LFD_TRY_STATUS(validate(module.emitter));
+  const double least_m = kLeastCurvedEmitter * display.screen.width_m;
+  if (display.optics.screen_radius_m != 0 && !(-module.emitter.z >= least_m)) {
+    return Error(fmt::format("emitter: z: {}; on a curved screen it must be at most {:g}, {:g} of the screen's width",
+                             module.emitter.z, -least_m, kLeastCurvedEmitter));
+  }
   if (module.color) {
     if (auto status = validate(*module.color); !status) return status.error().within("color");
   }

@@ -18,6 +18,8 @@ inline constexpr Limits kScreenSide_m{1e-3, 1e3};
 inline constexpr Limits kScreenRadius_m{1e-3, 1e12};
 inline constexpr Limits kObserverDistance_m{1e-3, 1e6};
 inline constexpr Limits kEmitterDistance_m{1e-6, 1e6};  // behind the screen
+inline constexpr double kLeastCurvedEmitter = 0.02;     // likewise, on a curved screen: over the screen's width
+inline constexpr double kMostConicalHeight = 300;       // of observers before a conical diffuser, over their distance
 inline constexpr Limits kPlace_m{0, 1e6};               // every other coordinate in physical space
 inline constexpr Limits kScattering_rad{1e-6, 6.3};     // the virtual display's alone: a whole turn
 inline constexpr Limits kFocalLength_px{1e-3, 1e7};

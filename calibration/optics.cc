@@ -11,32 +11,35 @@
 namespace lfd {
 namespace {
 
-// A horizontal ray of a curved screen, by path lengths from the emitter.
+// A horizontal ray of a curved screen, by path lengths from a point on it, not from the emitter: that may be 1e6 m
+// away.
 struct CurvedRay {
   glm::dvec2 direction;  // unit, (x, z)
-  double to_screen = 0, to_observers = 0;
+  double from_emitter = 0;
+  double to_screen = 0;  // negative: the screen lies behind the point
+  double to_observers = 0;
 };
 
 // The ray from the emitter through `through` (x, z). Absent where the two coincide, where it does not cross the screen
 // toward the viewer, or does not reach the observers after that.
 std::optional<CurvedRay> curved_ray(const Optics& optics, const Emitter& emitter, glm::dvec2 through) {
   const CurvedScreen screen(optics.screen_radius_m);
-  const glm::dvec2 from(emitter.x, emitter.z);
-  const double length = glm::length(through - from);
-  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+  const glm::dvec2 along = through - glm::dvec2(emitter.x, emitter.z);
   CurvedRay ray;
-  ray.direction = (through - from) / length;
-  const auto to_screen = screen.rise_through(from, ray.direction, 0);
-  if (!to_screen || !(*to_screen > 0)) return std::nullopt;
+  ray.from_emitter = std::hypot(along.x, along.y);
+  if (!(ray.from_emitter > 0) || !std::isfinite(ray.from_emitter)) return std::nullopt;
+  ray.direction = along / ray.from_emitter;
+  const auto to_screen = screen.rise_through(through, ray.direction, 0);
+  if (!to_screen || !(ray.from_emitter + *to_screen > 0)) return std::nullopt;
   ray.to_screen = *to_screen;
   const double vz = optics.observer_distance_m;
   if (optics.observer_arc) {
-    const auto to_observers = screen.rise_through(from, ray.direction, screen.level({0, vz}));
+    const auto to_observers = screen.rise_through(through, ray.direction, screen.level({0, vz}));
     if (!to_observers) return std::nullopt;
     ray.to_observers = *to_observers;
   } else {
     if (!(ray.direction.y > 0)) return std::nullopt;
-    ray.to_observers = (vz - emitter.z) / ray.direction.y;
+    ray.to_observers = (vz - through.y) / ray.direction.y;
   }
   if (!(ray.to_observers > ray.to_screen)) return std::nullopt;
   return ray;
@@ -44,17 +47,15 @@ std::optional<CurvedRay> curved_ray(const Optics& optics, const Emitter& emitter
 
 std::optional<OnScreen> on_curved_screen(const Optics& optics, const Emitter& emitter, Point3<Physical> p) {
   const auto ray = curved_ray(optics, emitter, {p.x, p.z});
-  if (!ray) return std::nullopt;
-  const double to_point = glm::length(glm::dvec2(p.x - emitter.x, p.z - emitter.z));
-  if (!(to_point < ray->to_observers)) return std::nullopt;
-  const double behind = ray->to_observers - to_point, whole = ray->to_observers - ray->to_screen;
-  const glm::dvec2 at = glm::dvec2(emitter.x, emitter.z) + ray->to_screen * ray->direction;
-  const auto s = CurvedScreen(optics.screen_radius_m).arc_length_of(at);
+  if (!ray || !(ray->to_observers > 0)) return std::nullopt;
+  const double whole = ray->to_observers - ray->to_screen;
+  const auto s =
+      CurvedScreen(optics.screen_radius_m).arc_length_of(glm::dvec2(p.x, p.z) + ray->to_screen * ray->direction);
   if (!s) return std::nullopt;
   const double vy = optics.observer_height_m;
-  return OnScreen{{*s, vy + (p.y - vy) * (whole / behind)},
-                  optics.observer_distance_m * ((to_point - ray->to_screen) / whole),
-                  to_point / ray->to_screen};
+  return OnScreen{{*s, p.y + (p.y - vy) * (-ray->to_screen / ray->to_observers)},
+                  optics.observer_distance_m * (-ray->to_screen / whole),
+                  ray->from_emitter / (ray->from_emitter + ray->to_screen)};
 }
 
 std::optional<OnScreen> on_planar_screen(const Optics& optics, const Emitter& emitter, Point3<Physical> p) {
@@ -84,6 +85,13 @@ Status validate(const Optics& optics) {
   LFD_TRY_STATUS(check_magnitude("observer_height_m", optics.observer_height_m, kPlace_m));
   LFD_TRY_STATUS(check_magnitude("observer_distance_m", vz, kObserverDistance_m));
   if (!std::isfinite(optics.screen_radius_m)) return Error("screen_radius_m: must be finite; 0 is a planar screen");
+  if (const double most = kMostConicalHeight * vz;
+      optics.diffuser == Diffuser::kConical && !(std::abs(optics.observer_height_m) <= most)) {
+    return Error(
+        fmt::format("observer_height_m: {}; magnitudes of up to {:g} are possible with a conical diffuser and "
+                    "observers at {} m",
+                    optics.observer_height_m, most, vz));
+  }
   if (optics.screen_radius_m == 0) {
     if (optics.observer_arc) return Error("observer_arc: a planar screen has no concentric arcs");
     return {};
@@ -150,10 +158,10 @@ std::optional<PixelLine> line_of_screen_point(const Optics& optics, const Emitte
     const auto ray = curved_ray(optics, emitter, at);
     // The crossing toward the viewer is here, not where the same ray meets the cylinder again.
     if (!ray || !(glm::dot(CurvedScreen(optics.screen_radius_m).outward(at), ray->direction) > 0)) return std::nullopt;
-    const glm::dvec2 observer = at + (ray->to_observers - ray->to_screen) * ray->direction;
+    const glm::dvec2 observer = at + ray->to_observers * ray->direction;
     line.on_observer_line.x = observer.x;
     line.on_observer_line.z = observer.y;
-    line.singular_depth = -vz * (ray->to_screen / (ray->to_observers - ray->to_screen));
+    line.singular_depth = -vz * (ray->from_emitter / ray->to_observers);
   }
   if (!is_finite(line.on_screen) || !is_finite(line.on_observer_line)) return std::nullopt;
   return line;

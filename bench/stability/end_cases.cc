@@ -83,6 +83,16 @@ void add_end_cases(StabilityCases& cases) {
                         display.optics.observer_height_m = place.most;
                         display.optics.observer_distance_m = distance.most;
                       }));
+  const auto conical_height = [](double height_m) {
+    return [height_m](DisplayCalibration& display) {
+      display.optics.diffuser = Diffuser::kConical;
+      display.optics.observer_height_m = height_m;
+    };
+  };
+  cases.push_back(end(fmt::format("conical: observers {:g} times as high as far away", kMostConicalHeight), 1, 0.3,
+                      conical_height(0.8 * kMostConicalHeight)));
+  cases.push_back(drawing_refused(kGroup, "conical: observers 1000 times as high as far away", "observer_height_m",
+                                  [=] { return at_end(1, 0.3, conical_height(800)); }));
   cases.push_back(end(fmt::format("an emitter {:g} m to the side, as far away", place.most), 1, 0.3,
                       [=](DisplayCalibration& display) {
                         display.modules[0].emitter = {place.most, place.most, -kEmitterDistance_m.most};

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "base/file.h"
+#include "base/log.h"
 #include "base/temporary_folder.h"
 #include "bench/stability/groups.h"
 #include "bench/stability/harmless.h"
@@ -15,12 +16,30 @@
 namespace lfd::bench {
 namespace {
 
+constexpr const char* kCalibrationFile = "display.textproto";
+
+// How every error about a field begins: file, line of the field (a field of the file's own may be absent, for its 0
+// is), and module.
+std::string beginning_of(const std::string& road) {
+  const std::size_t colon = road.find(':');
+  if (colon == road.npos) return fmt::format("{}:", kCalibrationFile);
+  const std::string module = road.starts_with("module") ? road.substr(0, colon + 2) : "";
+  return fmt::format("{}:#: {}", kCalibrationFile, module);
+}
+
 StabilityCase calibration_case(const std::string& kind, const NumberField& field) {
   return {"fields of calibrations", kind + ": " + field.road, kEachRefusedOrHarmless, [field](const gl::Context&) {
-            Tally tally(field.words);
+            Tally tally(field.words, beginning_of(field.road));
             for (const auto& [value, message] : field.spoilt) {
-              const auto display = read_calibration(dynamic_cast<const proto::DisplayCalibration&>(*message));
-              display ? tally.accepted(value, harm_of(*display)) : tally.refused(value, display.error().message());
+              proto::DisplayCalibration read;
+              const auto places = parse_text(print_text(*message), kCalibrationFile, read);
+              if (!places) {
+                tally.refused(value, places.error().message());
+                continue;
+              }
+              const auto display = read_calibration(read);
+              display ? tally.accepted(value, harm_of(*display))
+                      : tally.refused(value, places->locate(display.error()).message());
             }
             return tally.outcome();
           }};
@@ -57,7 +76,8 @@ proto::Deployment whole_deployment() {
 StabilityCase deployment_case(const NumberField& field) {
   return {"fields of deployments", field.road, kEachRefusedOrHarmless, [field](const gl::Context&) {
             const TemporaryFolder folder("lfd-stability");
-            Tally tally(field.words);
+            const std::string file = folder.path() / "deployment.textproto";
+            Tally tally(field.words, file + ":");
             const Status saved = save_calibration(folder.path() / "display.textproto", plain_display());
             if (!saved) return Outcome{saved.error().message(), 0, false};
             for (const auto& [value, message] : field.spoilt) {
@@ -68,8 +88,9 @@ StabilityCase deployment_case(const NumberField& field) {
                 tally.refused(value, deployment.error().message());
                 continue;
               }
+              // What only the scene's bounds show to be wrong is said when it is shown, without the file.
               const auto harm = harm_of(*deployment);
-              harm ? tally.accepted(value, *harm) : tally.refused(value, harm.error().message());
+              harm ? tally.accepted(value, *harm) : tally.refused(value, file + ": " + harm.error().message());
             }
             return tally.outcome();
           }};

@@ -92,6 +92,9 @@ void add_refusals(StabilityCases& cases) {
   nodes = bent_nodes();
   node(nodes, 9, 6) = node(nodes, 8, 6);
   cases.push_back(rejects("duplicated nodes", "column 8, row 6: at the same place", nodes));
+  nodes = bent_nodes();
+  node(nodes, 8, 7) = node(nodes, 8, 6);
+  cases.push_back(rejects("duplicated nodes, one above the other", "column 8, row 6: at the same place", nodes));
   for (const double value : {1e30, -1e30, 1e300, kInfinity, -kInfinity}) {
     cases.push_back(rejects(fmt::format("a node at {:g} m", value), "column 8, row 6", with_node({value, 0})));
   }

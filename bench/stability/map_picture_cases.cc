@@ -39,12 +39,14 @@ StabilityCase not_accepted(const std::string& name, const std::string& words, st
 }
 
 // 128 x 96 pixels from 0.6 m behind the screen; the corners are 0.42 from the axis.
-PinholeMap lens(double k1, double p1 = 0, double p2 = 0) {
+PinholeMap lens(double k1, double p1 = 0, double p2 = 0, double k2 = 0, double k3 = 0) {
   const DisplayCalibration display = small_display();
   PinholeMap map = pinhole_of_ideal(display.screen, display.image, {0, 0, -0.6});
   map.k1 = k1;
   map.p1 = p1;
   map.p2 = p2;
+  map.k2 = k2;
+  map.k3 = k3;
   return map;
 }
 
@@ -85,6 +87,12 @@ void add_lenses(StabilityCases& cases) {
   cases.push_back(drawn_true(kGroup, "lens with k1 = 3", [] { return through(lens(3)); }));
   cases.push_back(drawn_true(kGroup, "lens with k1 = 1e6", [] { return through(lens(1e6)); }));
   cases.push_back(drawn_true(kGroup, "lens with p1 = 0.02, p2 = -0.01", [] { return through(lens(0, 0.02, -0.01)); }));
+  cases.push_back(drawn_true(kGroup, "lens with k1 = -6, k2 = 25: turns back and forth",
+                             [] { return through(lens(-6, 0, 0, 25)); }));
+  cases.push_back(drawn_true(kGroup, "lens with k1 = -4, k2 = 7.21: almost turns back",
+                             [] { return through(lens(-4, 0, 0, 7.21)); }));
+  cases.push_back(
+      drawn_true(kGroup, "lens with k3 = -200: turns back", [] { return through(lens(0, 0, 0, 0, -200)); }));
   cases.push_back(drawn_true(kGroup, "lens with p1 = 0.8, p2 = -0.6: turns back sideways",
                              [] { return through(lens(0, 0.8, -0.6)); }));
 }

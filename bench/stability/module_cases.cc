@@ -1,10 +1,12 @@
 // Emitters near the screen and far from it, at and below the observer's height, and modules of one pixel or 8192, as
 // pictures.
+#include <algorithm>
 #include <cmath>
 
 #include "base/log.h"
 #include "bench/stability/drawing.h"
 #include "bench/stability/groups.h"
+#include "calibration/check/acceptance.h"
 #include "rendernode/geometry/clip_map.h"
 
 namespace lfd::bench {
@@ -66,6 +68,42 @@ DisplayCalibration bent(double radius_m, bool observer_arc) {
   return display;
 }
 
+// On a cylinder and with a conical diffuser the emitter's distance enters otherwise than above.
+void add_distances_of_other_optics(StabilityCases& cases) {
+  for (const double ez : {-1e-6, -1e-2, -0.2, -1e1, -1e2, -1e3, -1e4, -1e6}) {
+    cases.push_back(drawn_true(kGroup, fmt::format("conical, emitter {:g} m behind the screen", -ez), [ez] {
+      return with_display(with_emitter(Diffuser::kConical, {-0.1, -0.08, ez}), std::min(0.2, -ez));
+    }));
+  }
+  const auto on_cylinder = [](double radius, bool arc, double ez) {
+    DisplayCalibration display = bent(radius, arc);
+    display.image = {256, 192};  // silhouettes are a smaller share of more pixels
+    display.modules[0].emitter.z = ez;
+    return display;
+  };
+  for (const double radius : {2.0, -2.0, 1e9}) {
+    for (const bool arc : {false, true}) {
+      for (const double ez : {-0.2, -1e1, -1e2, -1e3, -1e4, -1e6}) {
+        const std::string name = fmt::format("screen radius {:g} m{}, emitter {:g} m behind it", radius,
+                                             arc ? ", observers on the arc" : "", -ez);
+        if (radius < 0 && arc && ez > -1) {
+          // So wide rays miss the arc.
+          cases.push_back(refused(kGroup, name + ": before anything is rendered", "coverage",
+                                  [=] { return accept_calibration(on_cylinder(radius, arc, ez)); }));
+        } else {
+          cases.push_back(drawn_true(kGroup, name, [=] { return with_display(on_cylinder(radius, arc, ez), 0.2); }));
+        }
+      }
+    }
+    cases.push_back(drawing_refused(kGroup, fmt::format("screen radius {:g} m, emitter 1e-3 m behind it", radius),
+                                    "emitter: z", [radius] {
+                                      DisplayCalibration display = bent(radius, false);
+                                      display.modules[0].emitter.z = -1e-3;
+                                      return with_display(display, 1e-3);
+                                    }));
+  }
+}
+
 void add_radii(StabilityCases& cases) {
   for (const double radius : {0.2, 1.0, 1e2, 1e4, 1e6, 1e9, 1e12, -0.5, -1e2, -1e4, -1e6, -1e9, -1e12}) {
     cases.push_back(drawn_true(kGroup, fmt::format("screen radius {:g} m", radius),
@@ -74,6 +112,7 @@ void add_radii(StabilityCases& cases) {
   // The whole display shrinks with its screen: its sides are 0.8 and 0.6 of the radius.
   PictureBounds steep;
   steep.most_far_off = 2;
+  steep.max = 1e-2;
   steep.why = "where two surfaces cross, interpolated depth says which is seen, on so curved a screen to 0.1 px";
   for (const double radius : {0.1, 1e-2, 2e-3, -0.1, -1e-2, -2e-3}) {
     cases.push_back(drawn_true(
@@ -129,12 +168,9 @@ void add_sizes(StabilityCases& cases) {
         return sized({8192, 4});
       },
       flat));
-  cases.push_back(drawn_true(
-      kGroup, "4 x 8192 pixels",
-      [sized] {
-        return sized({4, 8192});
-      },
-      flat));
+  for (const ImageSize size : {ImageSize{4, 8192}, {8192, 256}, {256, 8192}})
+    cases.push_back(
+        drawn_true(kGroup, fmt::format("{} x {} pixels", size.width, size.height), [=] { return sized(size); }));
 }
 
 void add_homographies(StabilityCases& cases) {
@@ -164,6 +200,7 @@ void add_screens(StabilityCases& cases) {
 
 void add_module_cases(StabilityCases& cases) {
   add_distances(cases);
+  add_distances_of_other_optics(cases);
   add_heights(cases);
   add_radii(cases);
   add_sizes(cases);

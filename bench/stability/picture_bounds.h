@@ -11,7 +11,7 @@ namespace lfd::bench {
 // 99.9 % of the pixels within 1e-4 of the ROI diagonal, all within 1e-3, coverage different at 0.05 % at most.
 struct PictureBounds {
   double median = 1e-5, percent_999 = 1e-4, max = 1e-3;  // over the diagonal of the region of interest
-  std::size_t most_far_off = 0;                          // pixels that may be beyond `max`
+  std::size_t most_far_off = 0;                          // pixels that may be beyond reference::kFarOff
   double mismatch_share = 5e-4;
   double least_compared_share = 0.2;  // of the reference's pixels with a surface: fewer would say nothing
   std::size_t least_compared = 1;     // pixels

@@ -24,42 +24,44 @@ Optics optics_of(double radius_m, bool observer_arc = false) {
 // Half the width of a screen that a cylinder of this radius can have.
 double half_width(double radius_m) { return 0.5 * std::min(0.4, std::abs(radius_m)); }
 
-// How much longer the way from the emitter to the observers is than that to the screen point at (x, z).
-double grow_of(const Optics& optics, Quad x, Quad z) {
-  const Quad dx = x - kEmitter.x, dz = z - kEmitter.z;
-  if (!optics.observer_arc) return static_cast<double>((kObserver - kEmitter.z) / dz);
+// How far the observers lie behind the screen point at (x, z), over the way from the emitter to it.
+long double beyond_of(const Optics& optics, const Emitter& emitter, Quad x, Quad z) {
+  const Quad dx = x - emitter.x, dz = z - emitter.z;
+  if (!optics.observer_arc) return static_cast<long double>((kObserver - z) / dz);
   // |E + g (S - E) - C| = |radius + vz|, C = (0, -radius): left from inside, or entered from the side of the screen.
   const Quad radius = optics.screen_radius_m, arc = radius + kObserver;
-  const Quad a = dx * dx + dz * dz, b = kEmitter.x * dx + (kEmitter.z + radius) * dz;
-  const Quad c = Quad(kEmitter.x) * kEmitter.x + (kEmitter.z + radius) * (kEmitter.z + radius) - arc * arc;
+  const Quad a = dx * dx + dz * dz, b = emitter.x * dx + (emitter.z + radius) * dz;
+  const Quad c = Quad(emitter.x) * emitter.x + (emitter.z + radius) * (emitter.z + radius) - arc * arc;
   const Quad root = quad_sqrt(b * b - a * c);
-  return static_cast<double>(((radius > 0 ? root : -root) - b) / a);
+  return static_cast<long double>(((radius > 0 ? root : -root) - b) / a - 1);
 }
 
 // The point at depth t of the line of a screen point by the circle's own angles and the straight line to the observers.
-Point3<Physical> point_by_circle(const Optics& optics, ScreenPoint s, double depth) {
+Point3<Physical> point_by_circle(const Optics& optics, const Emitter& emitter, ScreenPoint s, double depth) {
   const long double radius_m = optics.screen_radius_m, angle = s.x / radius_m, half = std::sin(angle / 2);
   const long double x = radius_m * std::sin(angle), z = -2 * radius_m * half * half;
-  const long double grow = grow_of(optics, x, z);
-  const long double ox = kEmitter.x + (x - kEmitter.x) * grow, oz = kEmitter.z + (z - kEmitter.z) * grow;
+  const long double beyond = beyond_of(optics, emitter, x, z);
+  const long double along_x = (x - emitter.x) * beyond, along_z = (z - emitter.z) * beyond;
   const long double share = depth / kObserver, vy = optics.observer_height_m;
-  return {static_cast<double>(x + share * (ox - x)), static_cast<double>(s.y + share * (vy - s.y)),
-          static_cast<double>(z + share * (oz - z))};
+  return {static_cast<double>(x + share * along_x), static_cast<double>(s.y + share * (vy - s.y)),
+          static_cast<double>(z + share * along_z)};
 }
 
 constexpr std::array kDepths{-0.4, -0.1, -1e-6, 0.0, 1e-6, 0.1, 0.5, 0.79};
 
 // On a convex screen with a small radius, some of the screen faces away from the emitter or the observers.
-bool is_lit(const Optics& optics, ScreenPoint s) { return line_of_screen_point(optics, kEmitter, s).has_value(); }
+bool is_lit(const Optics& optics, const Emitter& emitter, ScreenPoint s) {
+  return line_of_screen_point(optics, emitter, s).has_value();
+}
 
-void against_circles(Worst& worst, const Optics& optics) {
+void against_circles(Worst& worst, const Optics& optics, const Emitter& emitter = kEmitter) {
   const double radius_m = optics.screen_radius_m;
   for (const double share : {-0.95, -0.5, -0.01, 0.0, 0.3, 0.8}) {
     const ScreenPoint s{share * half_width(radius_m), 0.04};
-    if (!is_lit(optics, s)) continue;
+    if (!is_lit(optics, emitter, s)) continue;
     for (const double depth : kDepths) {
-      const Point3<Physical> p = point_by_circle(optics, s, depth);
-      const auto got = on_screen(optics, kEmitter, p);
+      const Point3<Physical> p = point_by_circle(optics, emitter, s, depth);
+      const auto got = on_screen(optics, emitter, p);
       if (!got) {
         worst.take(kInfinity);
         continue;
@@ -107,7 +109,8 @@ void add_radius_cases(StabilityCases& cases) {
           kGroup, fmt::format("{:g} m: points of lines by the circle's angles", radius_m), 16,
           "roundings at 1 m, magnified by the map",
           [radius_m](Worst& worst) { against_circles(worst, optics_of(radius_m)); }, 16));
-      // Behind the axis of a concave screen there is no arc.
+      // Behind the axis of a concave screen there is no arc; between the axis and twice as far rays that light the
+      // screen miss it.
       if (radius_m > -2 * kObserver && radius_m < 0) {
         if (radius_m >= -kObserver) cases.push_back(arc_refused(radius_m));
       } else {
@@ -115,6 +118,16 @@ void add_radius_cases(StabilityCases& cases) {
             kGroup, fmt::format("{:g} m, observers on the arc: the same", radius_m), 16,
             "roundings at 1 m, magnified by the map",
             [radius_m](Worst& worst) { against_circles(worst, optics_of(radius_m, true)); }, 16));
+      }
+      for (const double ez : {-1e2, -1e4, -1e6}) {
+        if (size < 1) break;
+        cases.push_back(bounded(
+            kGroup, fmt::format("{:g} m, emitter {:g} m behind it: the same", radius_m, -ez), 16,
+            "roundings at 1 m, magnified by the map",
+            [=](Worst& worst) {
+              against_circles(worst, optics_of(radius_m), {-0.05, 0.02, ez});
+            },
+            16));
       }
       if (size < 1e4) continue;
       const double bound = 1 / size + 64 * kEpsilon;

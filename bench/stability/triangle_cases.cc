@@ -88,7 +88,7 @@ std::vector<Corners> along_z(float from_z, float to_z) {
 PictureBounds thin_bounds() {
   constexpr double kNeedles = 20, kColumns = 128, kEdges = 2, kShare = 1.0 / 512;
   PictureBounds bounds;
-  bounds.percent_999 = 1;
+  bounds.percent_999 = bounds.max = 1;
   bounds.most_far_off = static_cast<std::size_t>(3 * kNeedles * kColumns * kEdges * kShare);
   bounds.why =
       "a needle thinner than a pixel is seen or missed where its edge is rounded to 1/256 px: 3 times the "
@@ -114,14 +114,14 @@ StabilityCase picture_like(std::string name, Triangles triangles, Triangles seen
   });
 }
 
-// The sphere in the box with every normal replaced. What the loader of files mends, a node may still be sent.
-SceneData with_normals(const std::function<glm::vec3(std::size_t)>& normal_of) {
+// The sphere in the box with other numbers at its vertices. What the loader of files mends, a node may still be sent.
+SceneData with_arrays(const std::function<void(MeshArrays&)>& change) {
   SceneData data = sphere_in_box(small_roi());
   SceneData changed;
   for (proto::Instance instance : data.scene.instance()) {
     auto arrays = mesh_arrays(*data.assets.at(instance.mesh()));
     LFD_CHECK(arrays, arrays.error().message());
-    for (std::size_t i = 0; i < arrays->normal.size(); ++i) arrays->normal[i] = normal_of(i);
+    change(*arrays);
     const auto bytes = std::make_shared<const std::string>(mesh_message(*arrays).SerializeAsString());
     instance.set_mesh(content_hash(*bytes));
     changed.assets[instance.mesh()] = bytes;
@@ -129,6 +129,27 @@ SceneData with_normals(const std::function<glm::vec3(std::size_t)>& normal_of) {
   }
   *changed.scene.mutable_material() = data.scene.material();
   return changed;
+}
+
+SceneData with_normals(const std::function<glm::vec3(std::size_t)>& normal_of) {
+  return with_arrays([&](MeshArrays& arrays) {
+    for (std::size_t i = 0; i < arrays.normal.size(); ++i) arrays.normal[i] = normal_of(i);
+  });
+}
+
+// Texture coordinates change nothing where there is no texture; colours that are no numbers show some colour.
+void add_uvs_and_colors(StabilityCases& cases) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e38F, 1e38F, 1e-44F}) {
+    cases.push_back(drawn_true(kGroup, fmt::format("with texture coordinates of {:g}", bad), [bad] {
+      const auto change = [bad](MeshArrays& arrays) { arrays.uv.assign(arrays.position.size(), {bad, 0.5F}); };
+      return Drawing{small_display(), with_arrays(change), small_roi(), {}};
+    }));
+    cases.push_back(drawn_finite(kGroup, fmt::format("with vertex colours of {:g}", bad), [bad] {
+      const auto change = [bad](MeshArrays& arrays) { arrays.color.assign(arrays.position.size(), {bad, 1, 1, 1}); };
+      return Drawing{small_display(), with_arrays(change), small_roi(), {}};
+    }));
+  }
 }
 
 void add_normals(StabilityCases& cases) {
@@ -202,6 +223,7 @@ void add_triangle_cases(StabilityCases& cases) {
         fmt::format("of {:g} m", size_m), [size_m] { return giants(size_m); }, [] { return giants(20); }));
   }
   add_normals(cases);
+  add_uvs_and_colors(cases);
   add_limits(cases);
 }
 

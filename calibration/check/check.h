@@ -34,7 +34,9 @@ struct MapNumbers {
   // the screen; infinite where there is no way back. 999: the 99.9 % quantile.
   double round_trip_median_px = 0, round_trip_999_px = 0, round_trip_max_px = 0;
   double image_on_screen = 0;  // share of image points that have a screen point; the rest lights no screen
-  double image_unmapped = 0;   // share of those for which the map alone has no answer: holes, folds, beside a grid
+  // Share of those for which the map alone has no answer (holes, folds, beside a grid), or whose light does not reach
+  // the observers from a curved screen.
+  double image_unmapped = 0;
   // Shares of the points on the screen at which the map, measured against the ideal one, mirrors, or squeezes one
   // direction 1000 times more than another.
   double mirrored = 0, near_singular = 0;
@@ -43,7 +45,7 @@ struct MapNumbers {
   double folded = 0, incomplete = 0;
   // condition_number() of derivative_by_physical() over the box, where there is an image.
   double condition_median = 0, condition_99 = 0, condition_max = 0;
-  double coverage = 0;  // share of the screen that the module lights; of all: their mean
+  double coverage = 0;  // share of the screen that the module lights toward the observers; of all: their mean
 };
 
 struct CalibrationReport {

@@ -33,6 +33,7 @@ void sample_image(const DisplayCalibration& display, const ModuleCalibration& mo
         if (!lit_by(display, module.map, p)) ++samples.unmapped;  // neither on the screen nor beside it
         continue;
       }
+      if (!line_of_screen_point(display.optics, module.emitter, *s)) ++samples.unmapped;
       const auto back = image_from_screen(display, module, *s);
       samples.round_trip_px.push_back(back ? std::hypot(back->x - p.x, back->y - p.y)
                                            : std::numeric_limits<double>::infinity());
@@ -48,7 +49,8 @@ void sample_screen(const DisplayCalibration& display, const ModuleCalibration& m
   for (int row = 0; row < sampling.screen_rows; ++row) {
     for (int column = 0; column < sampling.screen_columns; ++column) {
       const ScreenPoint s = sampled_screen_point(display, sampling, column, row);
-      samples.lit.push_back(image_from_screen(display, module, s).has_value());
+      samples.lit.push_back(image_from_screen(display, module, s).has_value() &&
+                            line_of_screen_point(display.optics, module.emitter, s).has_value());
     }
   }
 }

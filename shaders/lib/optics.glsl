@@ -25,10 +25,9 @@ float rise_through(ModuleParams m, vec2 from, vec2 direction, float level) {
   return b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a);
 }
 
-// The horizontal ray from the emitter along a unit vector: path lengths to the screen (x) and to the observers (y); not 0 < x < y
-// where it does not light the screen toward them.
-vec2 curved_ray(ModuleParams m, vec2 direction) {
-  vec2 from = m.emitter.xz;
+// The horizontal ray from the emitter along a unit vector, by path lengths from a point on it, not from the emitter, which may be 1e6 m
+// away: to the screen (x; negative where that lies behind the point) and to the observers (y; -1e30 where there are none).
+vec2 curved_ray(ModuleParams m, vec2 from, vec2 direction) {
   float to_observers = m.surface.y != 0.0 ? rise_through(m, from, direction, m.surface.y)
                      : direction.y > 0.0 ? (m.observer.y - from.y) / direction.y : -1e30;
   return vec2(rise_through(m, from, direction, 0.0), to_observers);
@@ -38,16 +37,16 @@ vec2 curved_ray(ModuleParams m, vec2 direction) {
 // the observers.
 vec4 screen_from_physical(ModuleParams m, vec3 p) {
   if (is_curved(m)) {
-    vec2 from = m.emitter.xz, to = p.xz - from;
-    float to_point = length(to);
-    vec2 direction = to / to_point;
-    vec2 ray = curved_ray(m, direction);
-    if (!(to_point > 0.0 && ray.x > 0.0 && ray.y > ray.x && to_point < ray.y)) return vec4(0.0, 0.0, -1.0, 0.0);
-    vec2 normal = outward(m, from + ray.x * direction);
+    vec2 to = p.xz - m.emitter.xz;
+    float from_emitter = length(to);
+    vec2 direction = to / from_emitter;
+    vec2 ray = curved_ray(m, p.xz, direction);
+    float to_screen = from_emitter + ray.x;
+    if (!(from_emitter > 0.0 && to_screen > 0.0 && ray.y > ray.x && ray.y > 0.0)) return vec4(0.0, 0.0, -1.0, 0.0);
+    vec2 normal = outward(m, p.xz + ray.x * direction);
     if (!(normal.y > 0.0)) return vec4(0.0, 0.0, -1.0, 0.0);
-    float whole = ray.y - ray.x;
-    return vec4(atan(normal.x, normal.y) / m.surface.x,
-                p.y + (p.y - m.observer.x) * ((to_point - ray.x) / (ray.y - to_point)), to_point / ray.x, m.observer.y * ((to_point - ray.x) / whole));
+    return vec4(atan(normal.x, normal.y) / m.surface.x, p.y + (p.y - m.observer.x) * (-ray.x / ray.y), from_emitter / to_screen,
+                m.observer.y * (-ray.x / (ray.y - ray.x)));
   }
   // As what is added to the point: observers and emitters may be 1e6 m away, where single precision has no millimetres.
   float sy = p.y + (p.y - m.observer.x) * (p.z / (m.observer.y - p.z));
@@ -73,9 +72,9 @@ vec3 line_direction(ModuleParams m, vec2 s) {
   if (is_curved(m)) {
     vec2 at = surface_point(m, s).xz;
     vec2 direction = normalize(at - m.emitter.xz);
-    vec2 ray = curved_ray(m, direction);
-    if (!(dot(outward(m, at), direction) > 0.0 && ray.x > 0.0 && ray.y > ray.x)) return vec3(0.0);
-    vec2 along = (ray.y - ray.x) * direction;
+    float to_observers = curved_ray(m, at, direction).y;
+    if (!(dot(outward(m, at), direction) > 0.0 && to_observers > 0.0)) return vec3(0.0);
+    vec2 along = to_observers * direction;
     return vec3(along.x, m.observer.x - s.y, along.y);
   }
   return vec3((s.x - m.emitter.x) * convergence(m, s.y), m.observer.x - s.y, m.observer.y);

@@ -146,6 +146,29 @@ TEST_P(AoLimitRendered, AtTheFootOfAWall) {
   expect_limits(wall, patches, 1, kGrid, generators());
 }
 
+// By the default curve, a = 0.5: what an open plane hides is taken away (the design's 0.18 at d = R / 4).
+TEST_P(AoLimitRendered, AtTheFootOfAWallAfterTheCurve) {
+  AoStage wall = stage(made("wall"));
+  const Patch patch = choose(wall, "d = R / 4", 1, [&](const AoPixel& pixel) {
+    return on_floor(pixel) && std::abs((pixel.p.z - kWallZ) / kRadius - 0.25) < 0.05 && std::abs(pixel.p.x + 0.4) < 0.2;
+  });
+  const AoSettings defaults;
+  double expected = 0, found = 0;
+  for (const double limit : patch.limits)
+    expected += reference::post_curve(limit, defaults) / static_cast<double>(patch.limits.size());
+  proto::AmbientOcclusion ao = plain_ao(kRadius, kSamples, proto::AmbientOcclusion::POISSON_DISK);
+  ao.clear_curve();
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+    ao.set_seed(seed);
+    for (const AoPixel& pixel : wall.draw(ao)) {
+      if (std::ranges::find(patch.pixels, pixel.at, &AoPixel::at) != patch.pixels.end())
+        found += pixel.ao / static_cast<double>(kSeeds * patch.pixels.size());
+    }
+  }
+  EXPECT_NEAR(found, expected, tolerance_of(patch, kGrid)) << "this curve has slope 1";
+  EXPECT_NEAR(found, 0.18, 0.02);
+}
+
 TEST_P(AoLimitRendered, InACorner) {
   AoStage corner = stage(made("corner"));
   const Patch patch = choose(corner, "corner", 1, [&](const AoPixel& pixel) {

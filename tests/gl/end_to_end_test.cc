@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Diffusers, EndToEnd, testing::Values(Diffuser::kLinear,
 TEST_P(EndToEnd, APictureOnTheScreenIsSeenAsItIs) {
   const SceneData data = made("quad");
   const auto expected = aimed_at(data);
-  for (const int modules : {8, 15, 31}) {
+  for (const int modules : {2, 3, 8, 15, 31, 61}) {
     const DisplayCalibration display = display_of(modules, GetParam());
     const auto images = rendered(data, display);
     for (std::size_t i = 0; i < kEyes.size(); ++i) {

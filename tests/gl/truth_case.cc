@@ -75,9 +75,7 @@ void expect_true(const TruthCase& test_case) {
     print(name, truth);
     EXPECT_GT(truth.compared, 0U) << name;
     auto broken = reference::broken_bounds(truth);
-    if (test_case.way) {
-      for (const std::string& line : bench::missed_bounds(truth, *test_case.way)) broken.push_back(line);
-    }
+    for (const std::string& line : bench::missed_bounds(truth, test_case.way)) broken.push_back(line);
     if (broken.empty()) continue;
     const auto path = std::filesystem::path(LFD_BIN_DIR) / ".." / fmt::format("difference of {}.png", name);
     const Status written =

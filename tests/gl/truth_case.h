@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ struct TruthCase {
   DisplayCalibration display;
   std::vector<std::uint32_t> modules;
   RegionOfInterest roi;
-  std::optional<bench::MapBounds> way = std::nullopt;  // bounds of the way of drawing, beside those of the truth
+  bench::MapBounds way = {};  // bounds of the way of drawing, beside those of the truth
 };
 
 // Renders the modules in one frame, compares their positions with the reference, prints the figures, and fails the test

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <random>
 
@@ -58,6 +59,34 @@ TEST(Twins, ThePcg3dHashToTheLastBit) {
     for (int c = 0; c < 3; ++c) {
       const auto low = static_cast<unsigned>(found[4 * i][c]), high = static_cast<unsigned>(found[4 * i + 1][c]);
       ASSERT_EQ(low + (high << 16U), expected[c]) << "number " << i;
+    }
+  }
+}
+
+// Shoemake 1992, by the quaternion's own matrix.
+glm::dmat3 rotation_of_pixel(glm::uvec2 pixel, unsigned module, unsigned seed) {
+  const glm::uvec3 h = pcg3d({pixel.x, pixel.y, module + seed * 4096U});
+  const glm::dvec3 u = glm::dvec3(h.x >> 8U, h.y >> 8U, h.z >> 8U) / 16777216.0;
+  const double a = std::sqrt(1 - u.x), b = std::sqrt(u.x), turn = 2 * M_PI;
+  return glm::mat3_cast(glm::dquat(b * std::cos(turn * u.z), a * std::sin(turn * u.y), a * std::cos(turn * u.y),
+                                   b * std::sin(turn * u.z)));
+}
+
+TEST(Twins, RotationsOfPixels) {
+  std::mt19937 random(8);
+  std::vector<glm::vec4> inputs;
+  for (int i = 0; i < 4000; ++i)
+    inputs.emplace_back(random() % 8192, random() % 8192, random() % 1024, random() % 65536);
+  const auto found = compute("#include \"lib/sampling.glsl\"",
+                             "mat3 m = rotation_of_pixel(uvec2(a.xy), uint(a.z), uint(a.w));"
+                             "for (int k = 0; k < 3; ++k) b[k] = vec4(m[k], 0.0);",
+                             inputs, 3);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const glm::uvec4 n(inputs[i]);
+    const glm::dmat3 expected = rotation_of_pixel({n.x, n.y}, n.z, n.w);
+    for (int c = 0; c < 3; ++c) {
+      // Sines and cosines of the GPU are good to some 2^-20; each entry has four products of them.
+      for (int r = 0; r < 3; ++r) ASSERT_NEAR(found[3 * i + c][r], expected[c][r], 1e-5) << "number " << i;
     }
   }
 }

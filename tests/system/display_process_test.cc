@@ -41,8 +41,8 @@ std::unique_ptr<Process> start_display(std::vector<std::string> arguments) {
 }
 
 // Waits for the end of a process; 1000 and more: a signal ended it.
-int exit_code(Process& process) {
-  const auto exit = process.wait(kPatience);
+int exit_code(Process& process, Clock::duration at_most = kPatience) {
+  const auto exit = process.wait(at_most);
   if (!exit) ADD_FAILURE() << "it does not end: " << testing::PrintToString(process.lines());
   if (!exit) return -1;
   return exit->signal == 0 ? exit->code : 1000 + exit->signal;
@@ -213,7 +213,7 @@ TEST_F(DisplayProcess, FramesGoOnWhereTheFolderCannotBeWritten) {
     EXPECT_EQ(expect(control_, [](const auto& e) { return e.has_shown(); }).envelope.shown().frame(), frame);
   }
   display->signal(SIGTERM);
-  EXPECT_EQ(exit_code(*display), 0);
+  EXPECT_EQ(exit_code(*display, std::chrono::seconds(2)), 0);
 }
 
 TEST_F(DisplayProcess, EndsOnSignalsWhileTheControllerIsAwayOrHalfwayThroughAFrame) {
@@ -229,8 +229,8 @@ TEST_F(DisplayProcess, EndsOnSignalsWhileTheControllerIsAwayOrHalfwayThroughAFra
     node.send_image(image, std::make_shared<const std::string>(48, 'x'));
     lonely->signal(number);
     joined->signal(number);
-    EXPECT_EQ(exit_code(*joined), 0);
-    EXPECT_EQ(exit_code(*lonely), 0);
+    EXPECT_EQ(exit_code(*joined, std::chrono::seconds(2)), 0);
+    EXPECT_EQ(exit_code(*lonely, std::chrono::seconds(2)), 0);
   }
 }
 

@@ -65,6 +65,8 @@ TEST_F(LfdCalibrateFit, MakesACalibrationThatIsAccepted) {
     EXPECT_EQ(module["map"], "pinhole");
     EXPECT_NEAR(module["noise_px"].get<double>(), 0.1, 0.03);  // simulate's default
     EXPECT_LT(module["after"]["median_px"].get<double>(), module["before"]["median_px"].get<double>());
+    EXPECT_GE(module["after"]["quantile_99_px"].get<double>(), module["after"]["median_px"].get<double>());
+    EXPECT_LE(module["after"]["quantile_99_px"].get<double>(), module["after"]["max_px"].get<double>());
   }
   for (const auto& outlier : json["outliers"]) EXPECT_GT(outlier["residual_px"].get<double>(), 5);
 }

@@ -11,6 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/process.h"
+#include "calibration/display.h"
+#include "proto/calibration_file.h"
 #include "tests/harness/workbench.h"
 
 namespace lfd {
@@ -44,6 +47,44 @@ TEST(LfdCalibrate, MapsPointsLineByLine) {
   const Answer answer = calibrate("map " + kDesk + " --module 3", "0 0 0\\n0 0 0.9\\nnan 0 0\\n");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_EQ(answer.text, "128 96 0\nnone\nnone\n");
+}
+
+// Seventeen digits are those of which the same double is made again.
+TEST(LfdCalibrate, AnswersAreTheMapsOwnDoubles) {
+  const auto display = load_calibration(kDesk);
+  ASSERT_TRUE(display);
+  double u = 0, v = 0, z = 0;
+  const Answer map = calibrate("map " + kDesk + " --module 0", "0.1 0.02 0.0625\n");
+  ASSERT_EQ(std::sscanf(map.text.c_str(), "%lf %lf %lf", &u, &v, &z), 3) << map.text;
+  const auto image = image_from_physical(*display, display->modules[0], {0.1, 0.02, 0.0625});
+  ASSERT_TRUE(image);
+  EXPECT_EQ(u, image->u);
+  EXPECT_EQ(v, image->v);
+  EXPECT_EQ(z, image->z);
+  double sx = 0, sy = 0, sz = 0, ox = 0, oy = 0, oz = 0;
+  const Answer ray = calibrate("ray " + kDesk + " --module 0", "17.3 101.7\n");
+  ASSERT_EQ(std::sscanf(ray.text.c_str(), "%lf %lf %lf %lf %lf %lf", &sx, &sy, &sz, &ox, &oy, &oz), 6) << ray.text;
+  const auto line = pixel_line(*display, display->modules[0], {17.3, 101.7});
+  ASSERT_TRUE(line);
+  EXPECT_EQ(sx, line->on_screen.x);
+  EXPECT_EQ(sy, line->on_screen.y);
+  EXPECT_EQ(ox, line->on_observer_line.x);
+  EXPECT_EQ(oz, line->on_observer_line.z);
+}
+
+// A partner that waits for each answer before it asks again gets it.
+TEST(LfdCalibrate, AnswersALineBeforeTheNextOneComes) {
+  const harness::Workbench bench;
+  const std::string in = bench.folder() / "in", out = bench.folder() / "out";
+  const std::string script = "mkfifo " + in + "; " + LFD_BIN_DIR + "/lfd-calibrate map " + kDesk + " --module 3 <" +
+                             in + " >" + out + " & exec 3>" + in + "; echo 0 0 0 >&3; " +
+                             "for i in $(seq 200); do [ -s " + out + " ] && break; sleep 0.05; done; cat " + out +
+                             "; exec 3>&-; wait";
+  const auto shell =
+      Process::start({.name = "sh", .command = {"/bin/sh", "-c", script}, .on_line = {}, .environment = {}});
+  ASSERT_TRUE(shell);
+  EXPECT_TRUE((*shell)->wait(std::chrono::seconds(30)));
+  EXPECT_THAT((*shell)->lines(), testing::ElementsAre("128 96 0"));
 }
 
 TEST(LfdCalibrate, PrintsThePixelsLine) {
@@ -95,7 +136,7 @@ TEST(LfdCalibrate, MakesColoursAndTellsOfThem) {
 
 TEST(LfdCalibrate, MakesMeasuredAndCurvedDisplaysThatPassTheCheck) {
   const std::string file = testing::TempDir() + "lfd-calibrate-made-" + std::to_string(getpid()) + ".textproto";
-  for (const std::string wishes : {"--grid 33x25 --warp 1.5", "--perturb 3 --radius=-2 --observer-arc",
+  for (const std::string wishes : {"--grid 33x25 --warp 1.5", "--perturb 3 --radius=-5 --observer-arc",
                                    "--perturb 3 --radius 3 --grid 25x19 --color 2"}) {
     EXPECT_EQ(calibrate("make desk " + wishes + " --out " + file).exit_code, 0) << wishes;
     const Answer check = calibrate("check " + file);
@@ -106,6 +147,9 @@ TEST(LfdCalibrate, MakesMeasuredAndCurvedDisplaysThatPassTheCheck) {
     EXPECT_EQ(info.text.find("grid") != std::string::npos, is_grid) << info.text;
     EXPECT_EQ(info.text.find("cylinder") != std::string::npos, is_curved) << info.text;
   }
+  // The arc is so narrow that wide rays miss it.
+  EXPECT_EQ(calibrate("make desk --radius=-1.5 --observer-arc --out " + file).exit_code, 0);
+  EXPECT_THAT(calibrate("check " + file).text, HasSubstr("missed: coverage"));
   std::remove(file.c_str());
   for (const char* wrong :
        {"--grid 33", "--grid 1x5", "--warp 2", "--observer-arc", "--radius 0", "--radius nan", "--grids pfm"})

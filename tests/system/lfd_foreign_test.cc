@@ -6,9 +6,11 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "base/file.h"
 #include "base/log.h"
+#include "proto/pictures/exr.h"
 #include "proto/pictures/png.h"
 #include "tests/foreign_files.h"
 #include "tests/harness/workbench.h"
@@ -51,6 +53,16 @@ double drawn_share(const fs::path& picture_file) {
   return 4.0 * static_cast<double>(drawn) / static_cast<double>(picture->rgba.size());
 }
 
+// Share of the pixels of a module's position file that have a surface.
+double surface_share(const fs::path& position_file) {
+  const auto picture = read_exr(position_file);
+  EXPECT_TRUE(picture) << (picture ? "" : picture.error().message());
+  if (!picture) return 0;
+  std::size_t surfaces = 0;
+  for (std::size_t i = 3; i < picture->rgba.size(); i += 4) surfaces += picture->rgba[i] == 1 ? 1 : 0;
+  return 4.0 * static_cast<double>(surfaces) / static_cast<double>(picture->rgba.size());
+}
+
 std::string desk() { return std::string(LFD_SOURCE_DIR) + "/configs/desk.textproto"; }
 
 class ForeignScene : public testing::TestWithParam<const char*> {};
@@ -63,12 +75,12 @@ TEST_P(ForeignScene, IsShownByACluster) {
   LFD_FOREIGN_FILE(path, GetParam());
   const Workbench bench;
   const auto out = bench.folder() / "out";
-  const auto report = render({desk(), "--scene", path}, out, 100s);
+  const auto report = render({desk(), "--scene", path, "--buffers", "position"}, out, 100s);
   ASSERT_TRUE(report.contains("frames"));
   for (const auto& node : report["frames"][0]["nodes"])
     EXPECT_EQ(node["state_hash"], report["frames"][0]["state_hash"]);
   // The scene is fitted to the screen: in the middle it takes a good part of the picture.
-  EXPECT_GT(drawn_share(out / "frame-0000" / "module-003.color.png"), 0.1);
+  EXPECT_GT(surface_share(out / "frame-0000" / "module-003.position.exr"), 0.1);
 }
 
 class ForeignDisplay : public testing::TestWithParam<const char*> {};
@@ -93,6 +105,31 @@ TEST_P(ForeignDisplay, IsDrivenByACluster) {
   for (const char* module : {"000", "007", "020"}) {
     EXPECT_GT(drawn_share(out / "frame-0000" / ("module-" + std::string(module) + ".color.png")), 0.1);
   }
+}
+
+// The scenes of others on the displays of others; --display shares its modules equally among the deployment's nodes.
+class ForeignBoth : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+INSTANTIATE_TEST_SUITE_P(Files, ForeignBoth,
+                         testing::Values(std::pair("scenes/sponza/Sponza.gltf", "displays/projectors-low-25.yaml"),
+                                         std::pair("scenes/viking_room.glb", "displays/holovizio-21.json"),
+                                         std::pair("scenes/armadillo.glb", "displays/projectors-aligned-41.yaml"),
+                                         std::pair("scenes/dragon.glb", "displays/projectors-low-25.yaml")),
+                         [](const auto& both) {
+                           return fs::path(both.param.first).stem().string() + std::to_string(both.index);
+                         });
+
+TEST_P(ForeignBoth, AreShownWithOcclusion) {
+  LFD_FOREIGN_FILE(scene, GetParam().first);
+  LFD_FOREIGN_FILE(foreign, GetParam().second);
+  const Workbench bench;
+  const auto display = bench.folder() / "imported.textproto", out = bench.folder() / "out";
+  const auto imported = start_program("lfd-calibrate", {"import", foreign, "--out", display})->wait(20s);
+  ASSERT_TRUE(imported && imported->succeeded());
+  const auto report = render(
+      {desk(), "--scene", scene, "--display", display, "--module", "0,10,20", "--buffers", "position,ao"}, out, 110s);
+  ASSERT_TRUE(report.contains("frames"));
+  EXPECT_EQ(report["frames"][0]["stale_modules"].size(), 0u);
+  EXPECT_GT(surface_share(out / "frame-0000" / "module-010.position.exr"), 0.05);
 }
 
 TEST(LargeDisplay, IsDrivenWholeByFourNodes) {

@@ -1,13 +1,16 @@
 // lfd render and view: what they write, and what they say where they cannot.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/version.h"
 #include "tests/harness/workbench.h"
+#include "tests/system/running_cluster.h"
 
 namespace lfd::harness {
 namespace {
@@ -21,8 +24,9 @@ const std::string kQuick = "pacing { heartbeat_ms: 100 }";
 TEST(LfdRender, WritesImagesAndAReport) {
   const Workbench bench;
   const auto out = bench.folder() / "out";
-  const auto lfd = start_program("lfd", {"render", bench.deployment(kQuick), "--frames", "2", "--buffers",
-                                         "color,position,normal,ao,depth", "--out", out, "--module", "1-2"});
+  const auto lfd =
+      start_program("lfd", {"render", bench.deployment(kQuick), "--frames", "2", "--buffers",
+                            "color,position,normal,ao,depth", "--out", out, "--module", "1-2", "--roi=0.25,0,0,2,1,1"});
   const auto exit = lfd->wait(kPatience);
   ASSERT_TRUE(exit);
   ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
@@ -35,7 +39,17 @@ TEST(LfdRender, WritesImagesAndAReport) {
   const auto& frame = report["frames"][0];
   EXPECT_EQ(frame["physical_from_world"].size(), 16u);
   EXPECT_EQ(frame["nodes"].size(), 2u);
-  for (const auto& node : frame["nodes"]) EXPECT_EQ(node["state_hash"], frame["state_hash"]);
+  // The screen is 1.6 x 0.9 m: two metres fit it at 0.8.
+  EXPECT_NEAR(frame["physical_from_world"][0].get<double>(), 0.8, 1e-15);
+  EXPECT_NEAR(frame["physical_from_world"][3].get<double>(), -0.2, 1e-15);
+  EXPECT_EQ(report["version"], kVersion);
+  for (const auto& node : frame["nodes"]) {
+    EXPECT_EQ(node["state_hash"], frame["state_hash"]);
+    EXPECT_EQ(node["version"], kVersion);
+    EXPECT_FALSE(node["renderer"].get<std::string>().empty());
+    EXPECT_FALSE(node["passes"].empty());
+    for (const auto& left : node["left_out"]) EXPECT_NE(left["why"], "");
+  }
   EXPECT_TRUE(descendants_named("lfd").empty());
 }
 
@@ -95,6 +109,44 @@ TEST(LfdView, WritesWhatAViewerSees) {
   ASSERT_TRUE(exit);
   ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
   EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+TEST(LfdRender, EndsWithinTwoSecondsOfASignalInTheMiddleOfAFrame) {
+  const Workbench bench(ImageSize{2048, 1024});
+  const std::string wall = bench.deployment("render { ao { samples: 256 radii: 8 } }");
+  const std::string out = bench.folder() / "out", picture = bench.folder() / "view.png";
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"render", wall, "--out", out, "--log-level", "debug"},
+          {"view", wall, "--eye", "0,0,2", "--out", picture, "--log-level", "debug"}}) {
+      const auto lfd = start_program("lfd", arguments);
+      ASSERT_TRUE(says(*lfd, "frame 0: begin"));
+      ASSERT_FALSE(lfd->wait(1s));
+      if (lines_with(*lfd, "llvmpipe") == 0) GTEST_SKIP() << "a GPU is done with the frame too soon";
+      ASSERT_EQ(lines_with(*lfd, "frame 0: swap"), 0) << "the frame is done before the signal comes";
+      lfd->signal(signal);
+      const auto exit = lfd->wait(2s);
+      ASSERT_TRUE(exit);
+      EXPECT_EQ(exit->code, 1) << exit->text();
+      EXPECT_THAT(lfd->lines(), testing::Contains(HasSubstr("ended by signal " + std::to_string(signal))));
+      EXPECT_TRUE(descendants_named("lfd").empty());
+      EXPECT_FALSE(std::filesystem::exists(picture));
+    }
+  }
+}
+
+TEST(LfdView, APlaceIsAnEyeOnTheObserversLine) {
+  const Workbench bench;
+  const auto out = bench.folder() / "out", by_place = bench.folder() / "a.png", by_eye = bench.folder() / "b.png";
+  const std::string wall = bench.deployment(kQuick);
+  const auto render = start_program("lfd", {"render", wall, "--out", out, "--no-ao"})->wait(kPatience);
+  ASSERT_TRUE(render && render->succeeded());
+  for (const auto& [eye, picture] :
+       {std::pair<std::string, std::string>{"--place=-0.25", by_place}, {"--eye=-0.4,0,2", by_eye}}) {
+    const auto exit = start_program("lfd", {"view", wall, "--frames-dir", out, eye, "--out", picture})->wait(kPatience);
+    ASSERT_TRUE(exit && exit->succeeded());
+  }
+  EXPECT_EQ(*read_file(by_place), *read_file(by_eye));
 }
 
 }  // namespace

@@ -176,6 +176,15 @@ TEST(CommittedDeployments, AreAccepted) {
   ASSERT_TRUE(wall) << wall.error().message();
   ASSERT_EQ(wall->nodes.size(), 4u);
   EXPECT_EQ(wall->nodes[3].modules.size(), 16u);
+  const auto demo = load_deployment(folder / "demo.textproto");
+  ASSERT_TRUE(demo) << demo.error().message();
+  EXPECT_EQ(demo->nodes.size(), 2u);
+  EXPECT_EQ(demo->display.modules.size(), 128u);
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() != ".textproto") continue;
+    const auto deployment = load_deployment(file.path());
+    EXPECT_TRUE(deployment) << deployment.error().message();
+  }
 }
 
 }  // namespace

@@ -27,6 +27,33 @@ TEST(MakeDisplay, HasTheNumbersOfTheTable) {
   EXPECT_NEAR(d.angular_scattering_rad, 1.5 * 2 * std::atan(0.5 * pitch / 1.8), 2e-12);
 }
 
+TEST(MakeDisplay, AllNamesHaveTheNumbersOfTheTable) {
+  struct Row {
+    const char* name;
+    std::size_t modules;
+    ImageSize image;
+    ScreenSize screen;
+    double fov_deg, vz, ez;
+  };
+  for (const Row& row : {Row{"desk", 8, {256, 192}, {0.40, 0.30}, 40, 0.8, -0.6},
+                         Row{"128wld", 128, {320, 240}, {0.65, 0.49}, 50, 1.2, -0.9},
+                         Row{"crs4", 72, {800, 600}, {1.60, 0.90}, 50, 3.0, -1.8},
+                         Row{"640rc", 64, {1024, 768}, {1.59, 0.90}, 60, 3.0, -1.8},
+                         Row{"722rc", 72, {1280, 800}, {1.59, 0.99}, 70, 3.0, -1.8},
+                         Row{"c80", 80, {1024, 768}, {3.00, 1.80}, 40, 7.0, -6.0},
+                         Row{"c80-conical", 80, {1024, 768}, {3.00, 1.80}, 40, 7.0, -6.0}}) {
+    const DisplayCalibration d = *make_display(row.name);
+    EXPECT_EQ(d.modules.size(), row.modules) << row.name;
+    EXPECT_EQ(d.image, row.image) << row.name;
+    EXPECT_EQ(d.screen, row.screen) << row.name;
+    EXPECT_EQ(d.optics.observer_distance_m, row.vz) << row.name;
+    EXPECT_EQ(d.modules.front().emitter.z, row.ez) << row.name;
+    const double half_span = -row.ez * std::tan(row.fov_deg / 2 * std::numbers::pi / 180);
+    EXPECT_NEAR(d.modules.front().emitter.x, -half_span, 1e-12) << row.name;
+    EXPECT_NEAR(d.modules.back().emitter.x, half_span, 1e-12) << row.name;
+  }
+}
+
 TEST(MakeDisplay, EveryNameMakesAValidDisplay) {
   for (const std::string& name : display_names()) {
     const auto display = make_display(name);

@@ -139,6 +139,16 @@ TEST(SceneMesh, BrokenNormalsAreMended) {
               ElementsAre(glm::vec3(0, 0, 1), glm::vec3(0, 0, 1), glm::vec3(0, .6F, .8F)));
 }
 
+TEST(SceneMesh, ColoursThatAreNoNumbersAreMendedWithAWarning) {
+  GltfMaker maker = GltfMaker::triangle();
+  maker.primitive()["attributes"]["COLOR_0"] = maker.add_floats({1, NAN, 0, 0, INFINITY, 0.5F, 1, 1, 1}, "VEC3");
+  const LoadedScene scene = loaded(maker);
+  EXPECT_THAT(mesh_of(scene).color,
+              ElementsAre(glm::vec4(1, 0, 0, 1), glm::vec4(0, 0, 0.5F, 1), glm::vec4(1, 1, 1, 1)));
+  EXPECT_THAT(scene.warnings,
+              ElementsAre(testing::HasSubstr("2 texture coordinates or vertex colours are not finite")));
+}
+
 TEST(SceneMesh, GlbIsTheSameAsGltf) {
   const GltfMaker maker = GltfMaker::triangle();
   const Result<LoadedScene> glb = load_bytes(maker.glb(), "test.glb");

@@ -52,6 +52,11 @@ class Loader {
       warnings_.push_back(fmt::format("{} primitives are drawn without the texture of their material (the first is {})",
                                       untextured_, first_untextured_));
     }
+    if (mended_ > 0) {
+      warnings_.push_back(
+          fmt::format("{} texture coordinates or vertex colours are not finite: 0 is taken (the first in {})", mended_,
+                      first_mended_));
+    }
     result.warnings = std::move(warnings_);
     return result;
   }
@@ -141,7 +146,9 @@ class Loader {
   Result<Part> read_part(const tinygltf::Primitive& primitive, const std::string& place) {
     LFD_TRY_STATUS(count(claimed_size(model_, primitive)));
     LFD_TRY(const ReadMaterial material, material_of(primitive));
-    LFD_TRY(MeshArrays arrays, read_primitive(model_, primitive, material.uv_set));
+    const std::size_t mended_before = mended_;
+    LFD_TRY(MeshArrays arrays, read_primitive(model_, primitive, material.uv_set, mended_));
+    if (mended_before == 0 && mended_ > 0) first_mended_ = place;
     if (arrays.index.empty()) return Part{};
     if (material.uv_set >= 0 && arrays.uv.empty()) {
       if (untextured_++ == 0) first_untextured_ = fmt::format("{}: no TEXCOORD_{}", place, material.uv_set);
@@ -164,6 +171,8 @@ class Loader {
   Size total_;
   int untextured_ = 0;  // primitives whose material has a texture that they have no place in
   std::string first_untextured_;
+  std::size_t mended_ = 0;  // texture coordinates and vertex colours that are not finite
+  std::string first_mended_;
   std::vector<std::string> warnings_;
 };
 

@@ -51,12 +51,16 @@ Status read_optional(const tinygltf::Primitive& primitive, const std::string& na
 }
 
 template <class Vector>
-void zero_where_not_finite(std::vector<Vector>& values) {
+std::size_t zero_where_not_finite(std::vector<Vector>& values) {
+  std::size_t mended = 0;
   for (Vector& value : values) {
     for (int c = 0; c < Vector::length(); ++c) {
-      if (!std::isfinite(value[c])) value[c] = 0;
+      if (std::isfinite(value[c])) continue;
+      value[c] = 0;
+      ++mended;
     }
   }
+  return mended;
 }
 
 Result<std::vector<std::uint32_t>> read_or_count(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -113,7 +117,8 @@ Size claimed_size(const tinygltf::Model& model, const tinygltf::Primitive& primi
   return size;
 }
 
-Result<MeshArrays> read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, int uv_set) {
+Result<MeshArrays> read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, int uv_set,
+                                  std::size_t& mended) {
   MeshArrays arrays;
   LFD_TRY(arrays.position, read_positions(model, primitive));
   const std::size_t vertices = arrays.position.size();
@@ -126,8 +131,7 @@ Result<MeshArrays> read_primitive(const tinygltf::Model& model, const tinygltf::
   }
   LFD_TRY_STATUS(read_optional(primitive, "COLOR_0", vertices, arrays.color,
                                [&](int accessor) { return read_colors(model, accessor, 1.0F); }));
-  zero_where_not_finite(arrays.uv);
-  zero_where_not_finite(arrays.color);
+  mended += zero_where_not_finite(arrays.uv) + zero_where_not_finite(arrays.color);
   LFD_TRY(const std::vector<std::uint32_t> listed, read_or_count(model, primitive, vertices));
   arrays.index = triangles(listed, primitive.mode);
   if (arrays.normal.empty()) return with_flat_normals(arrays);

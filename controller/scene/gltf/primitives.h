@@ -19,7 +19,9 @@ struct Size {
 Size claimed_size(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
 // Reads a primitive that has_triangles. uv is that of set `uv_set`; empty if the primitive lacks it or the set is
-// negative. Missing normals are flat, as glTF 2.0 asks (section 3.7.2.1). Positions are finite.
-Result<MeshArrays> read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, int uv_set);
+// negative. Missing normals are flat, as glTF 2.0 asks (section 3.7.2.1). Positions are finite; `mended` is raised by
+// how many texture coordinates and colours are not, for which 0 is taken.
+Result<MeshArrays> read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, int uv_set,
+                                  std::size_t& mended);
 
 }  // namespace lfd::scene::gltf
