@@ -227,50 +227,6 @@ TEST(Check, FoldsWithinCellsAreRefused) {
   EXPECT_TRUE(accept_calibration(desk_with_moved_node(12, 0.3)));
 }
 
-// Share of a curved screen's width that rays from `from` (x, z) cross which come within `near_m` of `axis`.
-double share_aimed_at(glm::dvec2 from, glm::dvec2 axis, double near_m, double radius_m, double width_m) {
-  constexpr int kColumns = 10000;
-  int aimed = 0;
-  for (int i = 0; i < kColumns; ++i) {
-    const double angle = ((i + 0.5) / kColumns - 0.5) * width_m / radius_m;
-    const glm::dvec2 at(radius_m * std::sin(angle), radius_m * (std::cos(angle) - 1));
-    const glm::dvec2 along = glm::normalize(at - from), to = axis - from;
-    aimed += std::abs(along.x * to.y - along.y * to.x) < near_m ? 1 : 0;
-  }
-  return static_cast<double>(aimed) / kColumns;
-}
-
-TEST(Check, CurvedScreensHaveAnglesConditionsAndCoverage) {
-  for (const double radius : {-4.0, 4.0}) {
-    for (const bool arc : {false, true}) {
-      DisplayCalibration display = one_module();
-      display.optics.observer_distance_m = 3;
-      display.optics.screen_radius_m = radius;
-      display.optics.observer_arc = arc;
-      display.angular_scattering_rad = 0.3;
-      display.modules.push_back({{-0.3, 0, -2}, grid_of(16, 8)});
-      ASSERT_TRUE(validate(display));
-      const auto report = check_calibration(display, 0.2);
-      EXPECT_GE(report.all.condition_median, 1);
-      EXPECT_LT(report.all.condition_max, 3);
-      if (radius < 0 && arc) {
-        // The arc is a circle of 1 m about the axis at (0, 4): wider rays miss it.
-        EXPECT_NEAR(report.modules[1].coverage, share_aimed_at({-0.3, -2}, {0, 4}, 1, radius, display.screen.width_m),
-                    0.03)
-            << "a sample in 65 columns";
-        EXPECT_THAT(missed_limits(report, {}), testing::Contains(testing::HasSubstr("coverage: ")));
-      } else {
-        EXPECT_EQ(report.all.coverage, 1);
-        EXPECT_THAT(missed_limits(report, {}), IsEmpty());
-      }
-      // On the screen at its middle, straight before the emitter: as on a planar one.
-      display.modules[0].emitter.x = 0;
-      EXPECT_NEAR(*condition_at(display, display.modules[0], {0, 0.4999, 0}), 1, 1e-3);
-      EXPECT_NEAR(point_before_screen(display.optics, {1, 0}, 0.1).x, (radius + 0.1) * std::sin(1 / radius), 1e-12);
-    }
-  }
-}
-
 TEST(Check, ExtremeDisplaysHaveFiniteAngles) {
   for (const double emitter_z : {-1e-6, -1e6}) {
     for (const ImageSize image : {ImageSize{1, 1}, ImageSize{8192, 8192}}) {
