@@ -1,11 +1,14 @@
 // Attribute by attribute: name, type, size, bytes; numbers are little-endian, and so are our machines.
 #include "proto/pictures/exr_header.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "base/log.h"
 #include "proto/pictures/picture.h"
@@ -29,6 +32,8 @@ class HeaderReader {
     rest_.remove_prefix(count);
     return taken;
   }
+
+  bool is_at_end() const { return rest_.empty(); }
 
   // Up to the next zero byte.
   std::optional<std::string_view> name() {
@@ -71,10 +76,67 @@ Status check_channels(std::string_view value) {
   for (int count = 0;; ++count) {
     const auto name = reader.name();
     if (!name) return Error("EXR: channels: the list does not end");
-    if (name->empty()) return {};
+    if (name->empty()) return reader.is_at_end() ? Status() : Error("EXR: channels: the list ends before its size");
     if (count == kMostExrChannels) return Error(fmt::format("EXR: channels: more than {}", kMostExrChannels));
     if (!reader.bytes(kChannelNumbers_bytes)) return Error("EXR: channels: the list does not end");
   }
+}
+
+// OpenEXR reads most types without a look at the size that stands before them, and takes what follows for the next
+// attribute; of pictures and texts it takes memory by numbers in the value.
+constexpr std::pair<std::string_view, std::size_t> kSizes[] = {
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+};
+
+bool is_preview(std::string_view value) {
+  HeaderReader reader(value);
+  const auto width = reader.number<std::uint32_t>(), height = reader.number<std::uint32_t>();
+  return width && height && std::uint64_t{*width} * *height * 4 == value.size() - 8 && *width <= value.size() &&
+         *height <= value.size();
+}
+
+bool is_string_list(std::string_view value) {
+  HeaderReader reader(value);
+  while (!reader.is_at_end()) {
+    const auto length = reader.number<std::uint32_t>();
+    if (!length || !reader.bytes(*length)) return false;
+  }
+  return true;
+}
+
+Status check_value(std::string_view name, std::string_view type, std::string_view value) {
+  if (type == "chlist") return check_channels(value);
+  const auto known = std::ranges::find(kSizes, type, &std::pair<std::string_view, std::size_t>::first);
+  const bool fits = known != std::end(kSizes) ? value.size() == known->second
+                    : type == "preview"       ? is_preview(value)
+                    : type == "stringvector"  ? is_string_list(value)
+                    : type == "floatvector"   ? value.size() % 4 == 0
+                                              : true;  // as many bytes as its size says
+  if (fits) return {};
+  return Error(fmt::format("EXR: attribute {}: {} bytes are no {}", name, value.size(), type));
 }
 
 }  // namespace
@@ -99,7 +161,7 @@ Status check_exr_header(std::string_view file, int most_side) {
       LFD_TRY_STATUS(check_window(*value, most_side));
       has_window = true;
     }
-    if (*type == "chlist") LFD_TRY_STATUS(check_channels(*value));
+    LFD_TRY_STATUS(check_value(*name, *type, *value));
   }
   if (!has_window) return Error("EXR: no dataWindow");
   return {};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,15 @@ std::string whole(std::uint32_t number) {
   std::string bytes;
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>((number >> shift) & 0xff));
   return bytes;
+}
+
+// The size that a file says its list of channels has.
+std::uint32_t channels_bytes(std::string_view file) {
+  using namespace std::string_view_literals;
+  const std::string_view list = "channels\0chlist\0"sv;
+  std::uint32_t size = 0;
+  std::memcpy(&size, file.data() + file.find(list) + list.size(), sizeof size);
+  return size;
 }
 
 TEST(GridExr, HasChannelsRedAndGreenOrSAndY) {
@@ -63,6 +73,7 @@ TEST(GridExr, IsRefusedByItsHeaderAlone) {
     EXPECT_NE(at, file.npos);
     return file.replace(at + after.size(), bytes.size(), bytes);
   };
+  using namespace std::string_literals;
   using namespace std::string_view_literals;
   const std::string_view window = "dataWindow\0box2i\0\x10\0\0\0"sv;
   EXPECT_EQ(error_of("g.exr", sound), "pixel (0, 0): s: at the same place of the screen as column 1, row 0");
@@ -74,6 +85,18 @@ TEST(GridExr, IsRefusedByItsHeaderAlone) {
   EXPECT_THAT(error_of("g.exr", with("dataWindow\0box2i\0"sv, whole(0x7fffffffU))),
               StartsWith("EXR: attribute dataWindow: 2147483647 bytes"));
   EXPECT_THAT(error_of("g.exr", with("\x76\x2f\x31\x01"sv, whole(0x202))), HasSubstr("only one picture of scanlines"));
+  // OpenEXR reads channels to the end of their list, whatever its size says, and takes what follows for an attribute.
+  EXPECT_EQ(error_of("g.exr", with("channels\0chlist\0"sv, whole(channels_bytes(sound) + 1))),
+            "EXR: channels: the list ends before its size");
+  EXPECT_EQ(error_of("g.exr", with("compression\0compression\0"sv, whole(2))),
+            "EXR: attribute compression: 2 bytes are no compression");
+  for (const auto& [type, value] : {std::pair{"preview"sv, whole(1 << 15) + whole(1 << 15) + "pixels"},
+                                    {"stringvector"sv, whole(0x52000000) + "text"},
+                                    {"floatvector"sv, std::string("abc")}}) {
+    std::string more = sound;
+    more.insert(8, "own\0"s + std::string(type) + "\0"s + whole(static_cast<std::uint32_t>(value.size())) + value);
+    EXPECT_THAT(error_of("g.exr", more), StartsWith("EXR: attribute own: ")) << type;
+  }
   std::string unnamed = sound;
   unnamed.replace(unnamed.find("dataWindow"), 10, "dataWindoe");
   EXPECT_EQ(error_of("g.exr", unnamed), "EXR: no dataWindow");
