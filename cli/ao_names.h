@@ -18,6 +18,9 @@ inline const std::map<std::string, proto::AmbientOcclusion::Generator> kGenerato
 inline const std::map<std::string, proto::AmbientOcclusion::Target> kTargetNames{
     {"ambient-light", proto::AmbientOcclusion::AMBIENT_LIGHT}, {"whole-color", proto::AmbientOcclusion::WHOLE_COLOR}};
 
+inline const std::map<std::string, proto::AmbientOcclusion::Blur::Kind> kBlurNames{
+    {"gaussian", proto::AmbientOcclusion::Blur::GAUSSIAN}, {"geometry", proto::AmbientOcclusion::Blur::GEOMETRY}};
+
 template <class Enumeration>
 std::vector<std::string> names_of(const std::map<std::string, Enumeration>& values) {
   std::vector<std::string> names;

@@ -3,6 +3,9 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/log.h"
 #include "calibration/spaces/roi.h"
@@ -29,10 +32,11 @@ struct Arguments {
   std::vector<double> orientation;
   bool whole = false;
   std::string scene;
-  std::optional<bool> ao_enabled, ao_blur, ao_symmetric;
-  std::optional<double> ao_radius_m, ao_shell, ao_sigma_px;
+  std::optional<bool> ao_enabled, ao_blur, ao_half;
+  std::optional<double> ao_radius_m, ao_sigma_px;
   std::optional<int> ao_samples, ao_radii;
-  std::string ao_generator, ao_target;
+  std::string ao_method, ao_generator, ao_target, ao_blur_kind;
+  std::vector<std::pair<std::string, double>> ao_parameters;
   std::optional<std::uint32_t> ao_seed;
   std::vector<double> ao_curve;
 };
@@ -109,11 +113,16 @@ Status change_roi(const Arguments& arguments) {
 // The numbers given replace those in `ao`; the others stay.
 void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   if (arguments.ao_enabled) ao.set_enabled(*arguments.ao_enabled);
+  if (!arguments.ao_method.empty() && arguments.ao_method != ao.method()) {
+    ao.set_method(arguments.ao_method);
+    ao.clear_parameter();  // they were another method's
+    ao.clear_curve();
+  }
+  for (const auto& [name, value] : arguments.ao_parameters) (*ao.mutable_parameter())[name] = value;
   if (arguments.ao_radius_m) ao.set_radius_m(*arguments.ao_radius_m);
-  if (arguments.ao_shell) ao.set_shell(*arguments.ao_shell);
   if (arguments.ao_samples) ao.set_samples(*arguments.ao_samples);
   if (arguments.ao_radii) ao.set_radii(*arguments.ao_radii);
-  if (arguments.ao_symmetric) ao.set_point_symmetric(*arguments.ao_symmetric);
+  if (arguments.ao_half) ao.set_half_resolution(*arguments.ao_half);
   if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
   if (arguments.ao_seed) ao.set_seed(*arguments.ao_seed);
   if (!arguments.ao_curve.empty()) {
@@ -121,6 +130,7 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
     ao.mutable_curve()->set_b(arguments.ao_curve[1]);
     ao.mutable_curve()->set_c(arguments.ao_curve[2]);
   }
+  if (!arguments.ao_blur_kind.empty()) ao.mutable_blur()->set_kind(kBlurNames.at(arguments.ao_blur_kind));
   if (arguments.ao_sigma_px) ao.mutable_blur()->set_sigma_px(*arguments.ao_sigma_px);
   if (!arguments.ao_generator.empty()) ao.set_generator(kGeneratorNames.at(arguments.ao_generator));
   if (!arguments.ao_target.empty()) ao.set_target(kTargetNames.at(arguments.ao_target));
@@ -154,21 +164,59 @@ Status quit(const Arguments& arguments) {
   return client.quit(kAnswerPatience);
 }
 
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const occlusion::Method* method : occlusion::methods()) names.emplace_back(method->name);
+  return names;
+}
+
+// Every method with its parameters, a line each.
+std::string method_lines() {
+  std::string lines = "Methods, and what --set changes in them:\n";
+  for (const occlusion::Method* method : occlusion::methods()) {
+    lines += fmt::format("  {} ({})\n", method->name, method->source);
+    for (const occlusion::Parameter& one : method->parameters)
+      lines += fmt::format("    {:<10} {:g} to {:g}, default {:g}: {}\n", one.name, one.least, one.most, one.fallback,
+                           one.meaning);
+  }
+  return lines;
+}
+
+// --set NAME=VALUE, as often as needed.
+void add_parameters(CLI::App& command, Arguments& a) {
+  const auto take = [&a](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::size_t equals = text.find('=');
+      double value = 0;
+      if (equals == text.npos || !CLI::detail::lexical_cast(text.substr(equals + 1), value))
+        throw CLI::ValidationError("--set", fmt::format("\"{}\"; NAME=VALUE is expected", text));
+      a.ao_parameters.emplace_back(text.substr(0, equals), value);
+    }
+  };
+  command.add_option_function<std::vector<std::string>>("--set", take, "One of the method's parameters, see below")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  command.footer(method_lines());
+}
+
 void add_ao_options(CLI::App& command, Arguments& a) {
   add_switch(command, "--on", "--off", a.ao_enabled, "Switch it on");
+  command.add_option("--method", a.ao_method, "How it is computed; parameters and curve are then the method's own")
+      ->check(CLI::IsMember(method_names()));
+  add_parameters(command, a);
   command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)")
       ->check(number_within(0, 1e30));
   command.add_option("--samples", a.ao_samples, "Samples per radius")->check(whole_number_within(1, 256));
   command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...)")->check(whole_number_within(1, 8));
-  command.add_option("--shell", a.ao_shell, "Inner radius of the shell of samples over the outer one")
-      ->check(number_within(0, 1));
   command.add_option("--generator", a.ao_generator, "Of the samples")->check(CLI::IsMember(names_of(kGeneratorNames)));
   command.add_option("--target", a.ao_target, "What is darkened")->check(CLI::IsMember(names_of(kTargetNames)));
-  add_switch(command, "--symmetric", "--no-symmetric", a.ao_symmetric, "Samples in pairs that mirror each other");
+  add_switch(command, "--half", "--full", a.ao_half, "Half the resolution, brought to all pixels");
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
   command.add_option("--seed", a.ao_seed, "Of the samples");
   add_numbers(command, "--curve", a.ao_curve, "A,B,C", "Post curve: ao' = 1 - clamp(B ((1 - ao) + A), 0, 1)^C");
-  command.add_option("--sigma", a.ao_sigma_px, "Of the blur, pixels")->check(number_within(0.1, 8));
+  command.add_option("--blur-kind", a.ao_blur_kind, "By distance in the image, or by normals and depths")
+      ->check(CLI::IsMember(names_of(kBlurNames)));
+  command.add_option("--sigma", a.ao_sigma_px, "Of the Gaussian blur, pixels")->check(number_within(0.1, 8));
 }
 
 }  // namespace

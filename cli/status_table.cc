@@ -31,15 +31,25 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
   const auto settings = read_settings(render);
   if (!settings) return settings.error().message() + "\n";
   const AoSettings& ao = settings->ao;
+  std::string parameters;
+  for (std::size_t i = 0; i < ao.parameters.size(); ++i)
+    parameters += fmt::format("{}{} {:g}", i == 0 ? "" : ", ", ao.method->parameters[i].name, ao.parameters[i]);
   return fmt::format(
-      "occlusion  {}\nradius     {}, {} radii\nsamples    {} per radius, {}, shell from {:g}, seed {}{}\n"
+      "occlusion  {}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}, seed {}\n"
       "curve      a {:g}, b {:g}, c {:g}\nblur       {}\ntarget     {}\n",
-      ao.enabled ? "on" : "off",
+      !ao.enabled          ? "off"
+      : ao.half_resolution ? "on, half resolution"
+                           : "on",
+      ao.method->name, parameters.empty() ? "" : ": ", parameters,
       ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
                       : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
-      ao.radii, ao.samples, name_of(kGeneratorNames, message.generator()), ao.shell, ao.seed,
-      ao.point_symmetric ? ", point-symmetric" : "", ao.curve_a, ao.curve_b, ao.curve_c,
-      ao.blur_enabled ? fmt::format("sigma {:g} px", ao.blur_sigma_px) : "off",
+      ao.radii,
+      ao.samples > 0 ? fmt::format("{} per radius, {}", ao.samples, name_of(kGeneratorNames, message.generator()))
+                     : "none",
+      ao.seed, ao.curve.a, ao.curve.b, ao.curve.c,
+      !ao.blur_enabled               ? "off"
+      : ao.blur == AoBlur::kGaussian ? fmt::format("Gaussian, sigma {:g} px", ao.blur_sigma_px)
+                                     : fmt::format("by geometry, {} taps a side", ao.blur_taps),
       name_of(kTargetNames, message.target()));
 }
 

@@ -1,10 +1,12 @@
 // Settings out of messages, with defaults and limits.
 #include "proto/settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/check.h"
 #include "base/log.h"
+#include "base/suggest.h"
 
 namespace lfd {
 namespace {
@@ -28,40 +30,90 @@ void set_vector(proto::Vector* to, const V& from) {
 
 glm::dvec3 size_from(const proto::Vector& v) { return {v.x(), v.y(), v.z()}; }
 
+std::string parameter_names(const occlusion::Method& method) {
+  std::vector<std::string_view> names;
+  for (const auto& parameter : method.parameters) names.push_back(parameter.name);
+  return names.empty() ? "no parameters" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+// Method, its parameters and its samples.
+Status read_method(const proto::AmbientOcclusion& m, AoSettings& ao) {
+  if (!m.method().empty()) ao.method = occlusion::find_method(m.method());
+  if (ao.method == nullptr) {
+    std::vector<std::string> names;
+    for (const occlusion::Method* method : occlusion::methods()) names.emplace_back(method->name);
+    const auto meant = closest(m.method(), names);
+    return Error(fmt::format(
+        "ao.method: \"{}\" is none{}", m.method(),
+        meant ? fmt::format("; did you mean {}?", *meant) : fmt::format("; there are {}", fmt::join(names, ", "))));
+  }
+  const occlusion::Method& method = *ao.method;
+  ao.parameters = occlusion::fallbacks(method);
+  ao.samples = method.samples;
+  ao.curve = method.curve;
+  for (const auto& [name, value] : m.parameter()) {
+    const auto known = std::ranges::find(method.parameters, std::string_view(name), &occlusion::Parameter::name);
+    if (known == method.parameters.end())
+      return Error(fmt::format("ao.parameter \"{}\": {} has {}", name, method.name, parameter_names(method)));
+    const std::string field = fmt::format("ao.parameter \"{}\"", name);
+    LFD_TRY_STATUS(check_range(field.c_str(), value, known->least, known->most));
+    if (known->is_whole && value != std::floor(value))
+      return Error(fmt::format("{}: {}; whole numbers are possible", field, value));
+    ao.parameters[static_cast<std::size_t>(known - method.parameters.begin())] = value;
+  }
+  LFD_TRY_STATUS(check_range("ao.samples", m.samples(), 0, 256));
+  if (m.samples() > 0 && method.samples > 0) ao.samples = m.samples();
+  if (method.pairs && ao.samples % 2 != 0)
+    return Error(fmt::format("ao.samples: {}; {} takes them in pairs", ao.samples, method.name));
+  return {};
+}
+
 Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
   AoSettings ao;
   if (m.has_enabled()) ao.enabled = m.enabled();
+  LFD_TRY_STATUS(read_method(m, ao));
   LFD_TRY_STATUS(check_range("ao.radius_m", m.radius_m(), 0, 1e15));
   LFD_TRY_STATUS(check_range("ao.radius_roi", m.radius_roi(), 0, 1e6));
-  LFD_TRY_STATUS(check_range("ao.samples", m.samples(), 0, 256));
   LFD_TRY_STATUS(check_range("ao.radii", m.radii(), 0, 8));
   ao.radius_m = m.radius_m();
   if (m.radius_roi() > 0) ao.radius_roi = m.radius_roi();
-  if (m.samples() > 0) ao.samples = m.samples();
   if (m.radii() > 0) ao.radii = m.radii();
   ao.generator = static_cast<SampleGenerator>(m.generator());
   LFD_TRY_STATUS(check_range("ao.generator", m.generator(), 0, 3));
-  if (m.has_shell()) ao.shell = m.shell();
-  LFD_TRY_STATUS(check_range("ao.shell", ao.shell, 0, 1));
   ao.seed = m.seed();
-  ao.point_symmetric = m.point_symmetric();
-  if (m.has_curve()) {
-    ao.curve_a = m.curve().a();
-    ao.curve_b = m.curve().b();
-    ao.curve_c = m.curve().c();
-  }
-  LFD_TRY_STATUS(check_range("ao.curve.a", ao.curve_a, -1, 1));
-  LFD_TRY_STATUS(check_range("ao.curve.b", ao.curve_b, 1e-3, 1e3));
-  LFD_TRY_STATUS(check_range("ao.curve.c", ao.curve_c, 1e-3, 1e3));
+  ao.half_resolution = m.half_resolution();
+  if (m.has_curve()) ao.curve = {m.curve().a(), m.curve().b(), m.curve().c()};
+  LFD_TRY_STATUS(check_range("ao.curve.a", ao.curve.a, -1, 1));
+  LFD_TRY_STATUS(check_range("ao.curve.b", ao.curve.b, 1e-3, 1e3));
+  LFD_TRY_STATUS(check_range("ao.curve.c", ao.curve.c, 1e-3, 1e3));
   if (m.blur().has_enabled()) ao.blur_enabled = m.blur().enabled();
   if (m.blur().sigma_px() != 0) ao.blur_sigma_px = m.blur().sigma_px();
   LFD_TRY_STATUS(check_range("ao.blur.sigma_px", ao.blur_sigma_px, 0.1, 8));
+  LFD_TRY_STATUS(check_range("ao.blur.kind", m.blur().kind(), 0, 1));
+  ao.blur = static_cast<AoBlur>(m.blur().kind());
+  LFD_TRY_STATUS(check_range("ao.blur.taps", m.blur().taps(), 0, 3));
+  if (m.blur().taps() > 0) ao.blur_taps = m.blur().taps();
   LFD_TRY_STATUS(check_range("ao.target", m.target(), 0, 1));
   ao.target = static_cast<AoTarget>(m.target());
   return ao;
 }
 
+std::size_t index_of(const occlusion::Method& method, std::string_view name) {
+  const auto known = std::ranges::find(method.parameters, name, &occlusion::Parameter::name);
+  LFD_CHECK(known != method.parameters.end(), "the method has such a parameter");
+  return static_cast<std::size_t>(known - method.parameters.begin());
+}
+
 }  // namespace
+
+double& AoSettings::parameter(std::string_view name) { return parameters[index_of(*method, name)]; }
+
+double AoSettings::parameter(std::string_view name) const { return parameters[index_of(*method, name)]; }
+
+std::vector<glm::vec4> AoSettings::sample_set() const {
+  if (method->sample_set == nullptr) return {};
+  return method->sample_set({generator, samples, seed}, parameters);
+}
 
 Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
   RenderSettings settings;

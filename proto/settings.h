@@ -4,34 +4,47 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "base/result.h"
 #include "calibration/maps/ideal.h"
 #include "calibration/spaces/roi.h"
+#include "proto/occlusion/method.h"
 #include "proto/scene.pb.h"
 #include "proto/settings.pb.h"
 
 namespace lfd {
 
-enum class SampleGenerator { kPoissonDisk, kUniform, kJittered, kLatinSquare };
+enum class AoBlur { kGaussian, kGeometry };
 enum class AoTarget { kAmbientLight, kWholeColor };
 
-// Ambient occlusion by Algorithm 2 of Doronin et al., WSCG 2017; the meaning of each number: settings.proto.
+// Ambient occlusion; the meaning of each number: settings.proto.
 struct AoSettings {
   bool enabled = true;
-  double radius_m = 0;  // 0: radius_roi x ROI diagonal
+  const occlusion::Method* method = &occlusion::default_method();
+  std::vector<double> parameters = occlusion::fallbacks(*method);  // in the method's order
+  double radius_m = 0;                                             // 0: radius_roi x ROI diagonal
   double radius_roi = 0.03;
-  int samples = 8;
+  int samples = method->samples;  // 0: the method takes none
   SampleGenerator generator = SampleGenerator::kPoissonDisk;
-  double shell = 0.8;
   int radii = 1;
   std::uint32_t seed = 0;
-  bool point_symmetric = false;
-  double curve_a = 0.5, curve_b = 1, curve_c = 1;
+  occlusion::Curve curve = method->curve;
   bool blur_enabled = true;
-  double blur_sigma_px = 1.5;
+  AoBlur blur = AoBlur::kGaussian;
+  double blur_sigma_px = 1.5;  // of kGaussian
+  int blur_taps = 2;           // of kGeometry, on each side
+  bool half_resolution = false;
   AoTarget target = AoTarget::kAmbientLight;
   bool operator==(const AoSettings&) const = default;
+
+  // One of the method's parameters; it has one of that name.
+  double& parameter(std::string_view name);
+  double parameter(std::string_view name) const;
+
+  // What every pixel turns for itself; empty where the method takes no samples.
+  std::vector<glm::vec4> sample_set() const;
 
   // The world-space radius for this region of interest.
   double radius_in_world_m(double roi_diagonal_m) const {
@@ -52,7 +65,8 @@ struct RenderSettings {
   bool operator==(const RenderSettings&) const = default;
 };
 
-// Errors name the field: "ao.samples: 1000; 1 to 256 are possible".
+// Errors name the field: "ao.samples: 1000; 1 to 256 are possible", "ao.parameter \"shell\": hbao has directions, steps
+// and bias".
 Result<RenderSettings> read_settings(const proto::RenderSettings& message);
 
 // Refuses a radius of ambient occlusion that is nothing beside the region of interest: less than kLeastAoRadius of its

@@ -53,8 +53,8 @@ std::shared_ptr<const std::string> pack_depth(std::span<const std::byte> pixels,
 std::shared_ptr<const std::string> pack_ao(std::span<const std::byte> pixels, const AoSettings& ao) {
   return converted<float>(pixels, [&](float hidden) -> Pixel {
     if (hidden < 0) return {};
-    const double open = std::clamp(ao.curve_b * ((1.0 - hidden) + ao.curve_a), 0.0, 1.0);
-    const float value = static_cast<float>(1 - std::pow(open, ao.curve_c));
+    const double open = std::clamp(ao.curve.b * ((1.0 - hidden) + ao.curve.a), 0.0, 1.0);
+    const float value = static_cast<float>(1 - std::pow(open, ao.curve.c));
     return {value, value, value, 1};
   });
 }

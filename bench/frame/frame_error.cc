@@ -8,7 +8,7 @@
 
 #include "base/log.h"
 #include "bench/common/frame_picture.h"
-#include "bench/reference/ao_limit.h"
+#include "bench/reference/method_limit.h"
 #include "bench/reference/silhouette.h"
 #include "rendernode/renderer.h"
 
@@ -30,13 +30,13 @@ std::vector<std::size_t> chosen_pixels(const reference::HitImage& hits, const Pi
 AoError ao_error(const reference::Intersector& intersector, const reference::ModuleView& view,
                  const reference::HitImage& hits, const std::vector<std::size_t>& pixels, const PictureF& rendered,
                  const AoSettings& settings, const AoSubset& subset) {
-  const double radius_m = settings.radius_in_world_m(intersector.scene().roi_diagonal_m);
   AoError error{subset, pixels.size()};
   double sum = 0, sum_absolute = 0, sum_squares = 0;
   for (const std::size_t i : pixels) {
     // Each pixel has samples of its own, so that their errors do not add up.
-    const reference::AoSampling sampling{radius_m, subset.samples, subset.seed + i};
-    const double limit = reference::ao_limit(intersector, view, hits.hit[i]->world, settings, sampling).curved;
+    const reference::LimitEffort effort{.samples = subset.samples, .seed = subset.seed + i};
+    const auto spot = reference::spot_of(view, intersector.scene(), *hits.hit[i]);
+    const double limit = reference::curved_limit(intersector, view, spot, settings, effort);
     const double off = rendered.rgba[4 * i] - limit;
     sum += off;
     sum_absolute += std::abs(off);

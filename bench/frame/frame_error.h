@@ -22,7 +22,7 @@ struct AoSubset {
   std::uint64_t seed = 1;
 };
 
-// Errors of ambient occlusion after blur and curve, 0 .. 1, against the limit of the method itself (ao_limit.h).
+// Errors of ambient occlusion after blur and curve, 0 .. 1, against the limit of the method itself (method_limit.h).
 struct AoError {
   AoSubset subset;
   std::size_t pixels = 0;     // that were judged

@@ -2,6 +2,7 @@
 #include "bench/frame/pass_times.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "base/clock.h"
@@ -23,12 +24,16 @@ struct Series {
 
   void add(const proto::NodeReport& report, double wall_ms) {
     double sum = 0;
+    std::map<std::string, double> of_frame;  // a pass may be timed in parts
     for (const proto::PassTime& pass : report.pass()) {
       if (pass.pass() == "geometry" || pass.pass() == "readback") continue;  // the CPU's
-      auto known = std::ranges::find(passes, pass.pass(), &decltype(passes)::value_type::first);
-      if (known == passes.end()) known = passes.insert(passes.end(), {pass.pass(), {}});
-      known->second.push_back(pass.gpu_ms());
+      of_frame[pass.pass()] += pass.gpu_ms();
       sum += pass.gpu_ms();
+    }
+    for (const auto& [pass, gpu_ms] : of_frame) {
+      auto known = std::ranges::find(passes, pass, &decltype(passes)::value_type::first);
+      if (known == passes.end()) known = passes.insert(passes.end(), {pass, {}});
+      known->second.push_back(gpu_ms);
     }
     sums.push_back(sum);
     walls.push_back(wall_ms);
@@ -58,7 +63,11 @@ Status draw_one(Renderer& renderer, const proto::State& state, const Assets& ass
 PassTimes table_of(const Series& without, const Series& with, int frames) {
   PassTimes times;
   times.frames = frames;
-  for (const char* pass : {"z_prepass", "gbuffer", "ao", "blur_horizontal", "blur_vertical", "post"}) {
+  for (const std::string pass :
+       {"z_prepass", "gbuffer", "pyramid", "ao", "ao_upsample", "blur_horizontal", "blur_vertical", "post"}) {
+    const bool is_rare =
+        pass == "pyramid" || pass == "ao_upsample";  // shown where the method or the settings ask for them
+    if (is_rare && !with.spread(pass)) continue;
     times.pass.push_back({pass, without.spread(pass), with.spread(pass)});
   }
   times.sum = {"all passes", spread_of(without.sums), spread_of(with.sums)};

@@ -9,6 +9,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json subject_json(const FrameSubject& s) {
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < s.ao.parameters.size(); ++i)
+    parameters[std::string(s.ao.method->parameters[i].name)] = s.ao.parameters[i];
   return {{"scene", s.scene},
           {"faces", s.faces},
           {"textures", s.textures},
@@ -22,9 +25,10 @@ Json subject_json(const FrameSubject& s) {
            {{"radius_m", s.ao_radius_m},
             {"samples", s.ao.samples},
             {"radii", s.ao.radii},
-            {"shell", s.ao.shell},
+            {"method", s.ao.method->name},
+            {"parameters", parameters},
             {"seed", s.ao.seed},
-            {"curve", {s.ao.curve_a, s.ao.curve_b, s.ao.curve_c}},
+            {"curve", {s.ao.curve.a, s.ao.curve.b, s.ao.curve.c}},
             {"blur_sigma_px", s.ao.blur_enabled ? Json(s.ao.blur_sigma_px) : Json()}}},
           {"renderer", s.renderer},
           {"version", s.version},

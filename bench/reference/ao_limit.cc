@@ -37,12 +37,12 @@ std::vector<Vector3<World>> unit_offsets(double shell, const AoSampling& samplin
 }  // namespace
 
 double post_curve(double ao, const AoSettings& settings) {
-  return 1 - std::pow(std::clamp(settings.curve_b * ((1 - ao) + settings.curve_a), 0.0, 1.0), settings.curve_c);
+  return 1 - std::pow(std::clamp(settings.curve.b * ((1 - ao) + settings.curve.a), 0.0, 1.0), settings.curve.c);
 }
 
 AoLimit ao_limit(const Intersector& intersector, const ModuleView& view, Point3<World> p, const AoSettings& settings,
                  const AoSampling& sampling) {
-  const std::vector<Vector3<World>> offsets = unit_offsets(settings.shell, sampling);
+  const std::vector<Vector3<World>> offsets = unit_offsets(settings.parameter("shell"), sampling);
   const int batches = (sampling.samples + kSamplesPerBatch - 1) / kSamplesPerBatch;
   AoLimit limit;
   double radius_m = sampling.radius_m;

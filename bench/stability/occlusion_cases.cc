@@ -39,7 +39,7 @@ SceneData ridges() {
 Drawing drawing_of(SceneData data, double radius_m, double radius_roi = 0) {
   Drawing drawing{small_display(), std::move(data), small_roi(), {}};
   auto& ao = *drawing.settings.mutable_ao();
-  ao.set_point_symmetric(true);
+  (*ao.mutable_parameter())["symmetric"] = 1;
   ao.mutable_blur()->set_enabled(false);
   ao.set_radius_m(radius_m);
   ao.set_radius_roi(radius_roi);

@@ -1,16 +1,14 @@
-// The six passes.
+// The six passes; those of ambient occlusion: occlusion_passes.cc.
 #include "rendernode/passes/frame_passes.h"
 
 #include <array>
 #include <cstddef>
 
-#include "rendernode/passes/ao_samples.h"
 
 namespace lfd {
 namespace {
 
 constexpr GLint kFirstLayer = 0;  // uniform location of layers.vert
-constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;
 
 gl::VertexArray make_surface_array() {
   gl::VertexArray array = gl::make_vertex_array();
@@ -50,7 +48,7 @@ shared::FrameParams frame_params(const FrameInputs& in, int lights) {
   params.background = glm::vec4(in.settings.background, lights);
   const AoSettings& ao = in.settings.ao;
   const float mode = !ao.enabled ? 0.0F : ao.target == AoTarget::kWholeColor ? 2.0F : 1.0F;
-  params.ambient_occlusion = {ao.curve_a, ao.curve_b, ao.curve_c, mode};
+  params.ambient_occlusion = {ao.curve.a, ao.curve.b, ao.curve.c, mode};
   return params;
 }
 
@@ -76,15 +74,19 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   const AoSettings& ao = in.settings.ao;
   const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536}};
   ao_params_ = gl::make_buffer(std::span(&ao_params, 1));
-  std::vector<glm::vec4> samples = shell_samples(ao);
+  std::vector<glm::vec4> samples = ao.sample_set();
   samples.resize(AO_MOST_SAMPLES);
   ao_samples_ = gl::make_buffer(samples);
+  std::vector<float> parameters(ao.parameters.begin(), ao.parameters.end());
+  parameters.resize((parameters.size() / 4 + 1) * 4);  // a uniform block is whole vectors
+  ao_parameters_ = gl::make_buffer(parameters);
   const auto bind = [](GLenum target, GLuint binding, const gl::Buffer& buffer) {
     glBindBufferBase(target, binding, buffer.name());
   };
   bind(GL_UNIFORM_BUFFER, BINDING_MODULES, in.modules.params);
   bind(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_params_);
   bind(GL_UNIFORM_BUFFER, BINDING_AO, ao_params_);
+  bind(GL_UNIFORM_BUFFER, BINDING_AO_METHOD, ao_parameters_);
   bind(GL_UNIFORM_BUFFER, BINDING_AO_SAMPLES, ao_samples_);
   bind(GL_SHADER_STORAGE_BUFFER, BINDING_MATERIALS, in.materials.params);
   bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS, in.lights.params);
@@ -110,8 +112,9 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
   if (plan.z_prepass) LFD_TRY_STATUS(z_prepass(plan, commands, inputs, targets, timers));
   LFD_TRY_STATUS(gbuffer(plan, commands, inputs, targets, timers));
   glDisable(GL_DEPTH_TEST);
-  if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(commands, inputs, targets, timers));
-  if (plan.blur) LFD_TRY_STATUS(blur(commands, inputs.settings.ao.blur_sigma_px, targets, timers));
+  if (plan.pyramid_levels > 0) LFD_TRY_STATUS(pyramid(plan, commands, targets, timers));
+  if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(plan, commands, inputs, targets, timers));
+  if (plan.blur) LFD_TRY_STATUS(blur(commands, inputs.settings.ao, targets, timers));
   if (plan.post) LFD_TRY_STATUS(post(plan, commands, inputs, targets, timers));
   return {};
 }
@@ -202,33 +205,6 @@ void FramePasses::draw_layers(const CommandList& commands, const char* pass, Pas
     glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(batch.layer_count));
     timers.end();
   }
-}
-
-Status FramePasses::ambient_occlusion(const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
-                                      PassTimers& timers) {
-  gl::Flags flags;
-  if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
-  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_sphere.frag"}, flags));
-  glUseProgram(name);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
-  bind_texture(UNIT_POSITION, targets.position());
-  draw_layers(commands, "ao", timers);
-  return {};
-}
-
-Status FramePasses::blur(const CommandList& commands, double sigma_px, const Targets& targets, PassTimers& timers) {
-  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/blur.frag"}, {}));
-  glUseProgram(name);
-  const auto weights = gaussian_weights(sigma_px);
-  glUniform1i(kBlurTaps, static_cast<GLint>(weights.size()) - 1);
-  glUniform1fv(kBlurWeights, static_cast<GLsizei>(weights.size()), weights.data());
-  for (int i = 0; i < 2; ++i) {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(1 - i));
-    bind_texture(UNIT_AO, targets.ao(i));
-    glUniform2i(kBlurDirection, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
-    draw_layers(commands, i == 0 ? "blur_horizontal" : "blur_vertical", timers);
-  }
-  return {};
 }
 
 Status FramePasses::post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,

@@ -44,16 +44,18 @@ class FramePasses {
                    PassTimers& timers);
   Status gbuffer(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
                  PassTimers& timers);
-  Status ambient_occlusion(const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
-                           PassTimers& timers);
-  Status blur(const CommandList& commands, double sigma_px, const Targets& targets, PassTimers& timers);
+  Status pyramid(const FramePlan& plan, const CommandList& commands, const Targets& targets, PassTimers& timers);
+  Status ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
+                           const Targets& targets, PassTimers& timers);
+  Status upsample(const CommandList& commands, const Targets& targets, PassTimers& timers);
+  Status blur(const CommandList& commands, const AoSettings& ao, const Targets& targets, PassTimers& timers);
   Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
               PassTimers& timers);
   void draw_layers(const CommandList& commands, const char* pass, PassTimers& timers);
 
   std::map<std::string, gl::Program> programs_;
   gl::VertexArray surface_array_, empty_array_;
-  gl::Buffer frame_params_, ao_params_, ao_samples_;
+  gl::Buffer frame_params_, ao_params_, ao_parameters_, ao_samples_;
 };
 
 // What the shaders read of a frame.

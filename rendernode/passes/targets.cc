@@ -9,6 +9,8 @@
 namespace lfd {
 
 Status Targets::prepare(const FramePlan& plan) {
+  if (plan.pyramid_levels > 0)
+    LFD_TRY_STATUS(pyramid_.prepare(plan.pyramid_factor, plan.pyramid_levels, size_, layers_));
   if (!make_textures(plan)) return {};
   const std::string what = fmt::format("the pictures of {} modules of {}x{}", layers_, size_.width, size_.height);
   if (const Status made = gl::memory_status(what); !made) {
@@ -21,16 +23,18 @@ Status Targets::prepare(const FramePlan& plan) {
 
 bool Targets::make_textures(const FramePlan& plan) {
   bool made = false;
-  const auto make = [&](gl::Texture& texture, GLenum format) {
+  const auto make_of = [&](gl::Texture& texture, GLenum format, ImageSize size) {
     if (texture) return;
-    texture = gl::make_array_texture(format, size_, layers_);
+    texture = gl::make_array_texture(format, size, layers_);
     made = true;
   };
+  const auto make = [&](gl::Texture& texture, GLenum format) { make_of(texture, format, size_); };
   make(albedo_, GL_SRGB8_ALPHA8);
   make(depth_, GL_DEPTH_COMPONENT32F);
   if (plan.position) make(position_, GL_RGBA32F);
   if (plan.normal) make(normal_, GL_RGBA16F);
   if (plan.ao) make(ao_[0], GL_R16F);
+  if (plan.upsample) make_of(half_ao_, GL_R16F, half_size());
   if (plan.ao && plan.blur) make(ao_[1], GL_R16F);
   if (plan.post) make(color_, GL_SRGB8_ALPHA8);
   return made;
@@ -45,6 +49,7 @@ void Targets::make_framebuffers() {
   if (!depth_framebuffer_) depth_framebuffer_ = gl::make_layered_framebuffer({}, depth_.name());
   make(ao_framebuffer_[0], ao_[0]);
   make(ao_framebuffer_[1], ao_[1]);
+  make(half_ao_framebuffer_, half_ao_);
   make(color_framebuffer_, color_);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "rendernode/gl/objects.h"
+#include "rendernode/passes/position_pyramid.h"
 #include "rendernode/plan/frame_plan.h"
 
 namespace lfd {
@@ -25,6 +26,10 @@ class Targets {
   GLuint normal() const { return normal_.name(); }
   // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back.
   GLuint ao(int i) const { return ao_[i].name(); }
+  // The same of half the resolution, rounded up.
+  GLuint half_ao() const { return half_ao_.name(); }
+  GLuint half_ao_framebuffer() const { return half_ao_framebuffer_.name(); }
+  ImageSize half_size() const { return {(size_.width + 1) / 2, (size_.height + 1) / 2}; }
   // SRGB8_ALPHA8, what the module is fed. Without a post pass it is the albedo.
   GLuint color(const FramePlan& plan) const { return plan.post ? color_.name() : albedo_.name(); }
 
@@ -33,6 +38,7 @@ class Targets {
   GLuint geometry(const FramePlan& plan);
   GLuint ao_framebuffer(int i) const { return ao_framebuffer_[i].name(); }
   GLuint color_framebuffer() const { return color_framebuffer_.name(); }
+  const PositionPyramid& pyramid() const { return pyramid_; }
 
  private:
   bool make_textures(const FramePlan& plan);  // whether any was missing
@@ -41,9 +47,10 @@ class Targets {
   ImageSize size_;
   int layers_;
   gl::Texture albedo_, depth_, position_, normal_, color_;
-  gl::Texture ao_[2];
+  gl::Texture ao_[2], half_ao_;
+  PositionPyramid pyramid_;
   gl::Framebuffer depth_framebuffer_, color_framebuffer_;
-  gl::Framebuffer ao_framebuffer_[2];
+  gl::Framebuffer ao_framebuffer_[2], half_ao_framebuffer_;
   gl::Framebuffer geometry_framebuffer_[2][2];  // [position][normal]
 };
 

@@ -91,8 +91,14 @@ class Planner {
     } else if (!plan_.ao) {
       leave_out("pass", "ao", any ? "every surface is unlit" : "no module sees geometry");
     }
+    plan_.upsample = plan_.ao && in_.settings.ao.half_resolution;
     plan_.blur = plan_.ao && in_.settings.ao.blur_enabled;
     if (!plan_.blur) leave_out("pass", "blur", plan_.ao ? "switched off" : "there is no ambient occlusion to blur");
+
+    const occlusion::Method& method = *in_.settings.ao.method;
+    if (plan_.ao && method.pyramid != occlusion::Pyramid::kNone)
+      plan_.pyramid_levels = static_cast<int>(in_.settings.ao.parameter("levels")) - 1;
+    plan_.pyramid_factor = method.pyramid == occlusion::Pyramid::kAveraged ? 3 : 2;
 
     if (!plan_.color) leave_out("correction", "colour", "no module has a colour calibration");
     const bool lights = everything_ || (any && lit);
@@ -101,15 +107,17 @@ class Planner {
     plan_.position = everything_ || plan_.ao || in_.buffers.has(proto::POSITION) || in_.buffers.has(proto::DEPTH) ||
                      in_.buffers.has(proto::AO) || (lights && in_.lights.need_position);
     if (!plan_.position) leave_out("target", "position", "nothing reads it");
-    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (lights && in_.lights.need_normal);
+    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (lights && in_.lights.need_normal) ||
+                   (plan_.ao && in_.settings.ao.method->normal) || plan_.upsample ||
+                   (plan_.blur && in_.settings.ao.blur == AoBlur::kGeometry);
     if (!plan_.normal) leave_out("target", "normal", "nothing reads it");
     choose_prepass(any, textured);
   }
 
   // What a layer's picture shows beside its items is the same for all layers.
   void hash_inputs() {
-    const std::string passes =
-        fmt::format("{}{}{}{}{}{}", plan_.position, plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color);
+    const std::string passes = fmt::format("{}{}{}{}{}{}{}{}", plan_.upsample, plan_.pyramid_levels, plan_.position,
+                                           plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color);
     for (std::string& items : plan_.inputs)
       items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
   }

@@ -1,4 +1,4 @@
-// Per-pixel turning of sample sets, which rendernode/passes/ao_samples.h makes.
+// Per-pixel turning of sample sets, which proto/occlusion/sample_sets.h makes.
 
 // PCG hash (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering"): three well-mixed numbers of three.
 uvec3 pcg3d(uvec3 v) {
@@ -26,7 +26,15 @@ mat3 random_rotation(vec3 u) {
               x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
 }
 
-mat3 rotation_of_pixel(uvec2 pixel, uint module_number, uint seed) {
-  uvec3 h = pcg3d(uvec3(pixel, module_number + seed * 4096u));
-  return random_rotation(vec3(h >> 8u) * (1.0 / 16777216.0));
+// Three numbers in [0, 1) of a pixel of a module.
+vec3 noise_of_pixel(uvec2 pixel, uint module_number, uint seed) {
+  return vec3(pcg3d(uvec3(pixel, module_number + seed * 4096u)) >> 8u) * (1.0 / 16777216.0);
+}
+
+// Axes with the unit vector n as the third, the others turned about it (Duff et al. 2017, "Building an orthonormal basis, revisited").
+mat3 frame_about(vec3 n, float turn) {
+  float s = n.z < 0.0 ? -1.0 : 1.0;
+  float a = -1.0 / (s + n.z), b = n.x * n.y * a;
+  vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), y = vec3(b, s + n.y * n.y * a, -n.y);
+  return mat3(cos(turn) * x + sin(turn) * y, cos(turn) * y - sin(turn) * x, n);
 }

@@ -1,4 +1,4 @@
-// The sample set of the sphere method.
+// What all methods of ambient occlusion are told.
 struct AoParams {
   vec4 radii;   // x: R in world metres; y: number of radii (R, R/2, R/4, ...); z: number of samples; w: seed
 };

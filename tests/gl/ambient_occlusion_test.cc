@@ -1,46 +1,25 @@
-// Ambient occlusion's known answers beside its limit: open planes, falling errors, blur, curve, targets.
+// Ambient occlusion's known answers beside its limit: open planes, falling errors, curve, targets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "bench/reference/scene_maker.h"
 #include "calibration/make.h"
-#include "tests/gl/ao_stage.h"
+#include "tests/gl/ao_scenes.h"
 
 namespace lfd {
 namespace {
 
-using reference::SceneMaker;
 using testing_support::all_generators;
 using testing_support::AoPixel;
 using testing_support::AoStage;
+using testing_support::ball_stage;
+using testing_support::floats;
 using testing_support::from_above;
+using testing_support::inner;
 using testing_support::made;
 using testing_support::plain_ao;
-
-// z = slope . (x, y), far beyond the screen on all sides.
-SceneData plane(glm::vec2 slope) {
-  SceneMaker maker;
-  const auto at = [&](float x, float y) { return glm::vec3(x, y, slope.x * x + slope.y * y); };
-  maker.add_quad(at(-1.2F, -1), at(1.2F, -1), at(1.2F, 1), at(-1.2F, 1), maker.add_material({}));
-  return maker.data();
-}
-
-// Pixels all of whose samples have an image.
-std::vector<AoPixel> inner(const AoStage& stage, const std::vector<AoPixel>& pixels, double radius_m) {
-  const auto reach = stage.reach_px({0, 0, 0}, radius_m);
-  LFD_CHECK(reach.has_value(), "the screen's centre is seen");
-  const ImageSize size = stage.display().image;
-  const double u = 1.5 * reach->x + 2, v = 1.5 * reach->y + 2;
-  std::vector<AoPixel> inside;
-  for (const AoPixel& pixel : pixels) {
-    const bool in =
-        pixel.at.column > u && pixel.at.column < size.width - u && pixel.at.row > v && pixel.at.row < size.height - v;
-    if (in) inside.push_back(pixel);
-  }
-  return inside;
-}
+using testing_support::plane;
 
 struct View {
   const char* name;
@@ -73,7 +52,7 @@ TEST(AmbientOcclusion, AnOpenPlaneIsOpenWithPointSymmetricSamples) {
         proto::AmbientOcclusion ao;  // curve, blur and number of samples as they are by default
         ao.set_radius_m(kR);
         ao.set_generator(generator);
-        ao.set_point_symmetric(true);
+        (*ao.mutable_parameter())["symmetric"] = 1;
         ao.set_radii(slope.x == 0 ? 3 : 1);
         const auto pixels = inner(stage, stage.draw(ao), kR);
         ASSERT_GT(pixels.size(), 1000U);
@@ -152,89 +131,6 @@ TEST(AmbientOcclusion, TheErrorFallsAsOneOverTheRootOfTheSampleCount) {
     EXPECT_LT(last[generator], 1.05 * last[proto::AmbientOcclusion::UNIFORM])
         << proto::AmbientOcclusion::Generator_Name(generator);
   }
-}
-
-SceneData ball_before_floor() {
-  SceneMaker maker;
-  const auto white = maker.add_material({});
-  maker.add_mesh(reference::sphere({0.1F, 0, 0.1F}, 0.25F, 16), white);
-  maker.add_quad({-0.6F, -0.3F, 0.4F}, {0.6F, -0.3F, 0.4F}, {0.6F, -0.2F, -0.4F}, {-0.6F, -0.2F, -0.4F}, white);
-  proto::Light ambient, sun;
-  ambient.set_kind(proto::Light::AMBIENT);
-  for (const float part : {0.5F, 0.4F, 0.3F}) ambient.add_color(part);
-  sun.set_kind(proto::Light::DIRECTIONAL);
-  for (const float part : {0.2F, 0.3F, 0.4F}) sun.add_color(part);
-  sun.mutable_direction()->set_z(-1);
-  *maker.data().scene.add_light() = ambient;
-  *maker.data().scene.add_light() = sun;
-  return maker.data();
-}
-
-AoStage ball_stage() {
-  return {ball_before_floor(), reference::same_spaces(), reference::one_module(Diffuser::kLinear, {96, 72})};
-}
-
-std::vector<float> floats(const FrameResult& result, proto::BufferKind kind) {
-  const ModuleImage* image = testing_support::find_image(result, 0, kind);
-  LFD_CHECK(image != nullptr, "it was asked for");
-  return testing_support::floats_of(*image);
-}
-
-// One direction of the Gaussian over a field of one value a pixel, -1 where there is none; in double precision.
-std::vector<double> blurred(const std::vector<double>& field, ImageSize size, double sigma, int dx, int dy) {
-  const int taps = std::min(24, static_cast<int>(std::ceil(2.5 * sigma)));
-  const auto at = [&](int x, int y) { return field[static_cast<std::size_t>(y) * size.width + x]; };
-  std::vector<double> result;
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      double sum = 0, weight = 0;
-      for (int i = -taps; i <= taps; ++i) {
-        const int u = x + i * dx, v = y + i * dy;
-        if (u < 0 || v < 0 || u >= size.width || v >= size.height || at(u, v) < 0) continue;
-        const double w = std::exp(-0.5 * i * i / (sigma * sigma));
-        sum += w * at(u, v);
-        weight += w;
-      }
-      result.push_back(at(x, y) < 0 ? -1 : sum / weight);
-    }
-  }
-  return result;
-}
-
-// Noise, outlines, holes and the image's border are all in this picture.
-TEST(AmbientOcclusion, TheBlurIsAGaussianInWhichHolesAndTheOutsideWeighNothing) {
-  AoStage stage = ball_stage();
-  auto ao = plain_ao(0.1, 8, proto::AmbientOcclusion::UNIFORM);
-  std::vector<double> sharp;
-  const auto drawn = floats(stage.draw_buffers(ao), proto::AO);
-  for (std::size_t i = 0; i < drawn.size(); i += 4) sharp.push_back(drawn[i + 3] == 0 ? -1 : drawn[i]);
-  ASSERT_GT(std::ranges::count(sharp, -1.0), 500);
-  ao.mutable_blur()->set_enabled(true);
-  for (const double sigma : {0.5, 1.5, 8.0}) {
-    ao.mutable_blur()->set_sigma_px(sigma);
-    const ImageSize size = stage.display().image;
-    const auto expected = blurred(blurred(sharp, size, sigma, 1, 0), size, sigma, 0, 1);
-    const auto found = floats(stage.draw_buffers(ao), proto::AO);
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      if (expected[i] < 0) {
-        ASSERT_EQ(found[4 * i + 3], 0);
-      } else {
-        // Each direction is stored as a half float, which GL may round either way: 2^-11 below 1; the rest is float
-        // rounding.
-        ASSERT_NEAR(found[4 * i], expected[i], 2.0 / 2048 + 1e-5) << "pixel " << i << ", sigma " << sigma;
-      }
-    }
-  }
-}
-
-TEST(AmbientOcclusion, TheBlurOfAConstantFieldIsConstant) {
-  AoStage stage(plane({0, 0}), reference::same_spaces(), reference::one_module(Diffuser::kLinear, {128, 96}));
-  auto ao = plain_ao(0.05, 8, proto::AmbientOcclusion::JITTERED);
-  ao.set_point_symmetric(true);
-  ao.mutable_blur()->set_enabled(true);
-  const auto pixels = inner(stage, stage.draw(ao), 0.1);  // twice the radius: the blur reaches 4 pixels further
-  ASSERT_GT(pixels.size(), 1000U);
-  for (const AoPixel& pixel : pixels) ASSERT_EQ(pixel.ao, 0.5);
 }
 
 double curve(double ao, double a, double b, double c) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/reference/ao_limit.h"
+#include "bench/reference/method_limit.h"
 #include "controller/scene/made/made_scenes.h"
 #include "tests/support/rendering.h"
 
@@ -72,11 +73,12 @@ class AoStage {
 
   const DisplayCalibration& display() const { return display_; }
 
-  // Colour, positions and ambient occlusion.
-  FrameResult draw_buffers(const proto::AmbientOcclusion& ao) {
+  // Colour, positions, ambient occlusion, and what else is asked for.
+  FrameResult draw_buffers(const proto::AmbientOcclusion& ao, std::initializer_list<proto::BufferKind> more = {}) {
     proto::RenderSettings settings;
     *settings.mutable_ao() = ao;
-    const FrameOptions options{.buffers = buffers({proto::POSITION, proto::AO}), .reuse = false};
+    FrameOptions options{.buffers = buffers({proto::POSITION, proto::AO}), .reuse = false};
+    options.buffers.bits |= buffers(more).bits;
     return draw_once(renderer_, state_of(data_, roi_, settings), data_.assets, options);
   }
 
@@ -97,6 +99,16 @@ class AoStage {
           {{number % width, number / width}, {p[i] + origin.x, p[i + 1] + origin.y, p[i + 2] + origin.z}, share[i]});
     }
     return pixels;
+  }
+
+  // What a method converges to at a pixel, before the curve; absent where it shows no surface.
+  std::optional<double> method_limit(PixelIndex at, const AoSettings& settings, double radius_m,
+                                     const reference::LimitEffort& effort) const {
+    const reference::ModuleView view{display_, display_.modules[module_], {}};
+    const auto hit = reference::cast_point(*intersector_, view, centre_of(at));
+    if (!hit) return std::nullopt;
+    return reference::method_limit(*intersector_, view, reference::spot_of(view, *scene_, *hit), settings, radius_m,
+                                   effort);
   }
 
   reference::AoLimit limit(Point3<World> p, const AoSettings& settings, const reference::AoSampling& sampling) const {

@@ -23,7 +23,7 @@ void expect_near(const Levels& found, const Levels& expected) {
 TEST(Materials, TheBackOfASingleSidedSurfaceIsInNoBuffer) {
   for (auto settings : both_plans()) {
     settings.mutable_background()->set_g(0.5);
-    settings.mutable_ao()->set_point_symmetric(true);  // an open plane is open
+    (*settings.mutable_ao()->mutable_parameter())["symmetric"] = 1;  // an open plane is open
     SceneMaker maker;
     maker.data().scene.mutable_light()->Add(light(proto::Light::AMBIENT, {1, 1, 1}));
     maker.add_mesh(turned(whole_screen()), maker.add_material({}));

@@ -181,7 +181,7 @@ TEST(SharedStructs, BindingsAreGivenOutOnce) {
       EXPECT_TRUE(given.insert((*found)[1].str() + " " + (*found)[2].str()).second) << found->str();
     }
   }
-  EXPECT_EQ(count, 17U);
+  EXPECT_EQ(count, 19U);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(Twins, RotationsOfPixels) {
   for (int i = 0; i < 4000; ++i)
     inputs.emplace_back(random() % 8192, random() % 8192, random() % 1024, random() % 65536);
   const auto found = compute("#include \"lib/sampling.glsl\"",
-                             "mat3 m = rotation_of_pixel(uvec2(a.xy), uint(a.z), uint(a.w));"
+                             "mat3 m = random_rotation(noise_of_pixel(uvec2(a.xy), uint(a.z), uint(a.w)));"
                              "for (int k = 0; k < 3; ++k) b[k] = vec4(m[k], 0.0);",
                              inputs, 3);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -97,7 +97,7 @@ TEST(Twins, RotationsOfPixelsAreRotationsAndUniform) {
     for (int x = 0; x < 200; ++x) inputs.emplace_back(x, y, x % 3, 7);
   }
   const auto found = compute("#include \"lib/sampling.glsl\"",
-                             "mat3 m = rotation_of_pixel(uvec2(a.xy), uint(a.z), uint(a.w));"
+                             "mat3 m = random_rotation(noise_of_pixel(uvec2(a.xy), uint(a.z), uint(a.w)));"
                              "for (int k = 0; k < 3; ++k) b[k] = vec4(m[k], 0.0);",
                              inputs, 3);
   const double count = static_cast<double>(inputs.size());
@@ -134,9 +134,7 @@ TEST(Twins, PostCurve) {
     for (int i = 0; i <= 256; ++i) {
       inputs.emplace_back(i / 256.F, abc.x, abc.y, abc.z);
       AoSettings one;
-      one.curve_a = abc.x;
-      one.curve_b = abc.y;
-      one.curve_c = abc.z;
+      one.curve = {abc.x, abc.y, abc.z};
       settings.push_back(one);
     }
   }
@@ -144,9 +142,9 @@ TEST(Twins, PostCurve) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     // pow of GLSL has the error of exp2(c log2(x)): some 2^-20 of the result; a root's steepness at 0 makes more of a
     // rounded argument.
-    const double tolerance = settings[i].curve_c < 1 ? 1e-3 : 2e-5;
+    const double tolerance = settings[i].curve.c < 1 ? 1e-3 : 2e-5;
     ASSERT_NEAR(found[i].x, reference::post_curve(inputs[i].x, settings[i]), tolerance)
-        << inputs[i].x << ", c " << settings[i].curve_c;
+        << inputs[i].x << ", c " << settings[i].curve.c;
   }
 }
 

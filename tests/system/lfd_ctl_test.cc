@@ -115,11 +115,11 @@ TEST(LfdCtl, ChangesOnlyWhatIsGiven) {
   EXPECT_EQ(ao.samples(), 4);
   EXPECT_FALSE(ao.has_enabled());
   EXPECT_FALSE(ao.blur().has_enabled());
-  ao = change({"--off", "--symmetric", "--no-blur"});
+  ao = change({"--off", "--set", "symmetric=1", "--no-blur"});
   EXPECT_TRUE(ao.has_enabled() && !ao.enabled());
   ao = change({"--samples", "2"});
   EXPECT_TRUE(ao.has_enabled() && !ao.enabled());
-  EXPECT_TRUE(ao.point_symmetric());
+  EXPECT_EQ(ao.parameter().at("symmetric"), 1);
   EXPECT_TRUE(ao.blur().has_enabled() && !ao.blur().enabled());
 }
 

@@ -172,7 +172,7 @@ TEST(Architecture, FindsTheSources) {
   const auto has = [](const char* path) { return std::ranges::count(sources(), path, &Source::path) == 1; };
   EXPECT_TRUE(has("base/result.h"));
   EXPECT_TRUE(has("rendernode/renderer.cc"));
-  EXPECT_TRUE(has("shaders/passes/ao_sphere.frag"));
+  EXPECT_TRUE(has("shaders/ao/sphere.frag"));
   EXPECT_TRUE(has("tests/unit/architecture_test.cc"));
 }
 

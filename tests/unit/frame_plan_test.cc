@@ -192,6 +192,16 @@ TEST_F(FramePlanning, TargetsFollowTheirReaders) {
   EXPECT_TRUE(plan().normal && !plan().position);
 }
 
+TEST_F(FramePlanning, NormalsAndPyramidsAreThereForMethodsThatReadThem) {
+  lights_ = {};
+  for (const occlusion::Method* method : occlusion::methods()) {
+    settings_.ao.method = method;
+    settings_.ao.parameters = occlusion::fallbacks(*method);
+    EXPECT_EQ(plan().normal, method->normal) << method->name;
+    EXPECT_EQ(plan().pyramid_levels, method->pyramid == occlusion::Pyramid::kNone ? 0 : 4) << method->name;
+  }
+}
+
 TEST_F(FramePlanning, OcclusionIsLeftOutWhereItIsSwitchedOffAndDoneWhereItIsAskedFor) {
   settings_.ao.enabled = false;
   EXPECT_EQ(why(plan(), "pass", "ao"), "switched off");

@@ -17,7 +17,7 @@ double four_sigma(double share) { return 4 * std::sqrt(share * (1 - share) / kSa
 AoSettings settings_of(int radii, double shell = 0.8) {
   AoSettings settings;
   settings.radii = radii;
-  settings.shell = shell;
+  settings.parameter("shell") = shell;
   return settings;
 }
 
@@ -163,9 +163,9 @@ TEST(AoLimit, TheSameSeedGivesTheSameNumber) {
 
 TEST(AoLimit, ThePostCurveIsTheDesigns) {
   AoSettings settings;
-  settings.curve_a = 0;
-  settings.curve_b = 1.03;
-  settings.curve_c = 4;
+  settings.curve.a = 0;
+  settings.curve.b = 1.03;
+  settings.curve.c = 4;
   EXPECT_DOUBLE_EQ(post_curve(0.4, settings), 1 - std::pow(1.03 * 0.6, 4));
   EXPECT_EQ(post_curve(0, settings), 0) << "clamped";
   EXPECT_EQ(post_curve(1, settings), 1);

@@ -1,5 +1,5 @@
 // Sample sets: counts, strata, spacing, symmetry, and that they fill the shell evenly.
-#include "rendernode/passes/ao_samples.h"
+#include "proto/occlusion/sample_sets.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace lfd {
+namespace lfd::occlusion {
 namespace {
 
 constexpr SampleGenerator kAll[] = {SampleGenerator::kPoissonDisk, SampleGenerator::kUniform,
@@ -27,49 +27,41 @@ INSTANTIATE_TEST_SUITE_P(Generators, AoSamples, testing::ValuesIn(kAll), name_of
 TEST_P(AoSamples, AreAsManyAsAskedForAndInTheSquare) {
   for (const int count : {1, 2, 3, 7, 8, 16, 31, 64, 100, 256}) {
     for (std::uint32_t seed = 0; seed < 5; ++seed) {
-      const auto points = square_points(GetParam(), count, seed);
+      const auto points = square_points({GetParam(), count, seed});
       ASSERT_EQ(points.size(), static_cast<std::size_t>(count));
       for (const auto& p : points) {
         ASSERT_TRUE(p.x >= -1 && p.x < 1 && p.y >= -1 && p.y < 1) << p.x << " " << p.y;
       }
-      AoSettings settings;
-      settings.samples = count;
-      settings.generator = GetParam();
-      settings.seed = seed;
-      EXPECT_EQ(shell_samples(settings).size(), static_cast<std::size_t>(count));
-      settings.point_symmetric = true;
-      EXPECT_EQ(shell_samples(settings).size(), static_cast<std::size_t>(count));
+      for (const bool pairs : {false, true}) {
+        EXPECT_EQ(shell_set({GetParam(), count, seed}, 0.8, pairs).size(), static_cast<std::size_t>(count));
+        EXPECT_EQ(disk_set({GetParam(), count, seed}, pairs).size(), static_cast<std::size_t>(count));
+      }
+      EXPECT_EQ(cosine_set({GetParam(), count, seed}).size(), static_cast<std::size_t>(count));
     }
   }
 }
 
 TEST_P(AoSamples, DependOnTheSeedAlone) {
-  EXPECT_EQ(square_points(GetParam(), 32, 5), square_points(GetParam(), 32, 5));
-  EXPECT_NE(square_points(GetParam(), 32, 5), square_points(GetParam(), 32, 6));
-  AoSettings settings;
-  settings.generator = GetParam();
-  EXPECT_EQ(shell_samples(settings), shell_samples(settings));
+  EXPECT_EQ(square_points({GetParam(), 32, 5}), square_points({GetParam(), 32, 5}));
+  EXPECT_NE(square_points({GetParam(), 32, 5}), square_points({GetParam(), 32, 6}));
+  const SampleChoice choice{GetParam(), 32, 5};
+  EXPECT_EQ(shell_set(choice, 0.8, false), shell_set(choice, 0.8, false));
+  EXPECT_EQ(disk_set(choice, true), disk_set(choice, true));
+  EXPECT_EQ(cosine_set(choice), cosine_set(choice));
 }
 
 TEST_P(AoSamples, PairsMirrorEachOtherExactly) {
-  AoSettings settings;
-  settings.generator = GetParam();
-  settings.point_symmetric = true;
   for (const int count : {2, 8, 9, 256}) {
-    settings.samples = count;
-    const auto samples = shell_samples(settings);
-    for (std::size_t i = 0; i + 1 < samples.size(); i += 2)
-      EXPECT_EQ(glm::vec3(samples[i]), -glm::vec3(samples[i + 1]));
+    for (const auto& samples : {shell_set({GetParam(), count, 0}, 0.8, true), disk_set({GetParam(), count, 0}, true)}) {
+      for (std::size_t i = 0; i + 1 < samples.size(); i += 2)
+        EXPECT_EQ(glm::vec3(samples[i]), -glm::vec3(samples[i + 1]));
+    }
   }
 }
 
 TEST_P(AoSamples, LieInTheShell) {
   for (const double shell : {0.0, 0.5, 0.8, 1.0}) {
-    AoSettings settings;
-    settings.generator = GetParam();
-    settings.samples = 256;
-    settings.shell = shell;
-    for (const auto& sample : shell_samples(settings)) {
+    for (const auto& sample : shell_set({GetParam(), 256, 0}, shell, false)) {
       const double radius = glm::length(glm::dvec3(sample));
       EXPECT_GE(radius, shell - 1e-6) << "a float's rounding";
       EXPECT_LE(radius, 1 + 1e-6);
@@ -80,18 +72,14 @@ TEST_P(AoSamples, LieInTheShell) {
 // Over many sets every direction and every part of the shell's volume is as likely. Tolerances: 5 standard errors of as
 // many independent samples; stratified sets only stay further below them.
 TEST_P(AoSamples, FillTheShellEvenly) {
-  AoSettings settings;
-  settings.generator = GetParam();
-  settings.samples = 16;
-  const double inner3 = std::pow(settings.shell, 3);
+  const double inner3 = std::pow(0.8, 3);
   constexpr int kSets = 2000, kBins = 10;
   const double count = 16.0 * kSets;
   glm::dvec3 mean(0), squares(0), products(0);
   double volume = 0, volume_squares = 0;
   std::vector<int> bins(kBins);
   for (std::uint32_t seed = 0; seed < kSets; ++seed) {
-    settings.seed = seed;
-    for (const auto& sample : shell_samples(settings)) {
+    for (const auto& sample : shell_set({GetParam(), 16, seed}, 0.8, false)) {
       const glm::dvec3 p(sample), d = glm::normalize(p);
       mean += d / count;
       squares += d * d / count;
@@ -120,6 +108,34 @@ TEST_P(AoSamples, FillTheShellEvenly) {
 
 std::size_t cell(double coordinate, int cells) { return static_cast<std::size_t>((coordinate + 1) / 2 * cells); }
 
+// Equal parts of the disk are as likely; so are equal parts of the squared sine about the normal, which is what a
+// cosine means. Five standard errors of independent samples.
+TEST_P(AoSamples, FillDiskAndLobeEvenly) {
+  constexpr int kSets = 2000;
+  const double count = 16.0 * kSets;
+  glm::dvec2 disk_mean(0), lobe_mean(0);
+  double area = 0, sine2 = 0;
+  for (std::uint32_t seed = 0; seed < kSets; ++seed) {
+    for (const auto& p : disk_set({GetParam(), 16, seed}, false)) {
+      ASSERT_LE(glm::length(glm::dvec2(p)), 1 + 1e-6);
+      ASSERT_NEAR(glm::length(glm::dvec2(p)), p.w, 1e-6) << "floats";
+      disk_mean += glm::dvec2(p) / count;
+      area += glm::dot(glm::dvec2(p), glm::dvec2(p)) / count;
+    }
+    for (const auto& p : cosine_set({GetParam(), 16, seed})) {
+      ASSERT_NEAR(glm::length(glm::dvec3(p)), 1, 1e-6) << "floats";
+      ASSERT_GE(p.z, 0);
+      ASSERT_TRUE(p.w >= 0 && p.w < 1);
+      lobe_mean += glm::dvec2(p) / count;
+      sine2 += (1 - p.z * p.z) / count;
+    }
+  }
+  // x and y have variance 1/4, the shares 1/12.
+  for (const double mean : {disk_mean.x, disk_mean.y, lobe_mean.x, lobe_mean.y})
+    EXPECT_NEAR(mean, 0, 5 * std::sqrt(0.25 / count));
+  for (const double share : {area, sine2}) EXPECT_NEAR(share, 0.5, 5 * std::sqrt(1 / (12 * count)));
+}
+
 TEST(AoSampleSets, JitteredHaveOnePointInEachCell) {
   struct Grid {
     int count, rows, columns;
@@ -127,7 +143,7 @@ TEST(AoSampleSets, JitteredHaveOnePointInEachCell) {
   for (const Grid& grid :
        {Grid{1, 1, 1}, Grid{7, 1, 7}, Grid{8, 2, 4}, Grid{12, 3, 4}, Grid{64, 8, 8}, Grid{256, 16, 16}}) {
     std::set<std::pair<std::size_t, std::size_t>> cells;
-    for (const auto& p : square_points(SampleGenerator::kJittered, grid.count, 3)) {
+    for (const auto& p : square_points({SampleGenerator::kJittered, grid.count, 3})) {
       cells.insert({cell(p.x, grid.rows), cell(p.y, grid.columns)});
     }
     EXPECT_EQ(cells.size(), static_cast<std::size_t>(grid.count));
@@ -137,7 +153,7 @@ TEST(AoSampleSets, JitteredHaveOnePointInEachCell) {
 TEST(AoSampleSets, LatinSquaresHaveOnePointInEachRowAndColumn) {
   for (const int count : {1, 2, 7, 8, 64, 256}) {
     std::set<std::size_t> rows, columns;
-    for (const auto& p : square_points(SampleGenerator::kLatinSquare, count, 3)) {
+    for (const auto& p : square_points({SampleGenerator::kLatinSquare, count, 3})) {
       rows.insert(cell(p.x, count));
       columns.insert(cell(p.y, count));
     }
@@ -162,10 +178,10 @@ TEST(AoSampleSets, PoissonDisksKeepTheirDistanceAlsoAcrossTheSeam) {
   for (const int count : {4, 8, 32, 256}) {
     double poisson = 0, uniform = 0, nearest = 4;
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
-      const double distance = least_distance(square_points(SampleGenerator::kPoissonDisk, count, seed));
+      const double distance = least_distance(square_points({SampleGenerator::kPoissonDisk, count, seed}));
       nearest = std::min(nearest, distance);
       poisson += distance / 20;
-      uniform += least_distance(square_points(SampleGenerator::kUniform, count, seed)) / 20;
+      uniform += least_distance(square_points({SampleGenerator::kUniform, count, seed})) / 20;
     }
     EXPECT_GT(poisson, 1.5 * uniform);
     // The densest packing has a distance of 1.07 of sqrt(4 / count); throwing darts reaches well over half of it.
@@ -173,15 +189,5 @@ TEST(AoSampleSets, PoissonDisksKeepTheirDistanceAlsoAcrossTheSeam) {
   }
 }
 
-TEST(AoSampleSets, GaussianWeightsReachTwoAndAHalfSigma) {
-  const auto weights = gaussian_weights(1.5);
-  ASSERT_EQ(weights.size(), 5U);  // 0 .. ceil(3.75)
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    EXPECT_FLOAT_EQ(weights[i], static_cast<float>(std::exp(-static_cast<double>(i * i) / (2 * 1.5 * 1.5))));
-  }
-  EXPECT_EQ(gaussian_weights(100).size(), 25U) << "what the shader has room for";
-  EXPECT_EQ(gaussian_weights(0.1).size(), 2U);
-}
-
 }  // namespace
-}  // namespace lfd
+}  // namespace lfd::occlusion

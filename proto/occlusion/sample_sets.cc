@@ -1,13 +1,14 @@
-// The four generators and the shell.
-#include "rendernode/passes/ao_samples.h"
+// The four generators, and shells, disks and lobes made of them.
+#include "proto/occlusion/sample_sets.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec3.hpp>
 #include <numbers>
 #include <numeric>
 #include <random>
 
-namespace lfd {
+namespace lfd::occlusion {
 namespace {
 
 // Uniform numbers in [0, 1) from the generator's raw bits: the library's distributions differ between platforms.
@@ -90,44 +91,66 @@ glm::dvec3 on_sphere(glm::dvec2 x) {  // Algorithm 3
   return {r * std::cos(phi), r * std::sin(phi), x.x};
 }
 
+// A second stream of numbers beside the square's, for what each sample needs once more.
+Random beside(const SampleChoice& choice) { return Random(choice.seed ^ 0x9e3779b9U); }
+
+// Half as many points where the other half mirrors them.
+std::vector<glm::dvec2> half_or_all(SampleChoice choice, bool pairs) {
+  if (pairs) choice.count = (choice.count + 1) / 2;
+  return square_points(choice);
+}
+
 }  // namespace
 
-std::vector<glm::dvec2> square_points(SampleGenerator generator, int count, std::uint32_t seed) {
-  Random random(seed);
-  switch (generator) {
+std::vector<glm::dvec2> square_points(const SampleChoice& choice) {
+  Random random(choice.seed);
+  switch (choice.generator) {
     case SampleGenerator::kUniform:
-      return uniform_points(count, random);
+      return uniform_points(choice.count, random);
     case SampleGenerator::kJittered:
-      return jittered_points(count, random);
+      return jittered_points(choice.count, random);
     case SampleGenerator::kLatinSquare:
-      return latin_points(count, random);
+      return latin_points(choice.count, random);
     case SampleGenerator::kPoissonDisk:
-      return poisson_points(count, random);
+      return poisson_points(choice.count, random);
   }
   return {};
 }
 
-std::vector<glm::vec4> shell_samples(const AoSettings& settings) {
-  const int count = settings.samples;
-  const int drawn = settings.point_symmetric ? (count + 1) / 2 : count;
-  const auto square = square_points(settings.generator, drawn, settings.seed);
-  Random random(settings.seed ^ 0x9e3779b9U);
-  const double inner3 = std::pow(settings.shell, 3);
+std::vector<glm::vec4> shell_set(const SampleChoice& choice, double inner, bool pairs) {
+  Random random = beside(choice);
+  const double inner3 = std::pow(inner, 3);
   std::vector<glm::vec4> samples;
-  for (const auto& x : square) {
+  for (const auto& x : half_or_all(choice, pairs)) {
     const double radius = std::cbrt(inner3 + (1 - inner3) * random.next());  // Algorithm 4
     const glm::dvec3 p = radius * on_sphere(x);
     samples.emplace_back(p.x, p.y, p.z, 0);
-    if (settings.point_symmetric && static_cast<int>(samples.size()) < count) samples.emplace_back(-p.x, -p.y, -p.z, 0);
+    if (pairs && static_cast<int>(samples.size()) < choice.count) samples.emplace_back(-p.x, -p.y, -p.z, 0);
   }
   return samples;
 }
 
-std::vector<float> gaussian_weights(double sigma_px) {
-  const int taps = std::min(24, static_cast<int>(std::ceil(2.5 * sigma_px)));
-  std::vector<float> weights;
-  for (int i = 0; i <= taps; ++i) weights.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px))));
-  return weights;
+std::vector<glm::vec4> disk_set(const SampleChoice& choice, bool pairs) {
+  std::vector<glm::vec4> samples;
+  for (const auto& x : half_or_all(choice, pairs)) {
+    const double r = std::sqrt(0.5 * (x.x + 1)), phi = std::numbers::pi * x.y;
+    samples.emplace_back(r * std::cos(phi), r * std::sin(phi), 0, r);
+    if (pairs && static_cast<int>(samples.size()) < choice.count) {
+      const glm::vec4 p = samples.back();
+      samples.emplace_back(-p.x, -p.y, 0, p.w);
+    }
+  }
+  return samples;
 }
 
-}  // namespace lfd
+std::vector<glm::vec4> cosine_set(const SampleChoice& choice) {
+  Random random = beside(choice);
+  std::vector<glm::vec4> samples;
+  for (const auto& x : square_points(choice)) {
+    const double sine2 = 0.5 * (x.x + 1), r = std::sqrt(sine2), phi = std::numbers::pi * x.y;
+    samples.emplace_back(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - sine2), random.next());
+  }
+  return samples;
+}
+
+}  // namespace lfd::occlusion

@@ -1,0 +1,26 @@
+// pyramid_hbao: seeds 003, "Pyramid HBAO", 2021: one cone of ever coarser levels along each direction.
+#include "proto/occlusion/method.h"
+
+namespace lfd::occlusion {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"levels", 5, 1, kMostPyramidLevels, "of the pyramid, the full picture counted", true},
+    {"directions", 8, 1, 64, "across the pixel's own line", true},
+    {"steps", 4, 1, 64, "along each direction on each level", true},
+};
+
+}  // namespace
+
+extern const Method pyramid_hbao;
+const Method pyramid_hbao{.name = "pyramid_hbao",
+                          .source = "Pyramid HBAO (a scalable horizon-based ambient occlusion), equation 8",
+                          .parameters = kParameters,
+                          .curve = {0, 1, 1},
+                          .samples = 0,
+                          .pairs = false,
+                          .normal = true,
+                          .pyramid = Pyramid::kAveraged,
+                          .sample_set = nullptr};
+
+}  // namespace lfd::occlusion

@@ -1,0 +1,92 @@
+// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, blur.
+#include <utility>
+
+#include "base/log.h"
+#include "rendernode/passes/blur_weights.h"
+#include "rendernode/passes/frame_passes.h"
+
+namespace lfd {
+namespace {
+
+constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;  // uniform locations of both blurs
+
+}  // namespace
+
+Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, const Targets& targets,
+                            PassTimers& timers) {
+  const char* fragment = plan.pyramid_factor == 3 ? "passes/pyramid_average.frag" : "passes/pyramid_pick.frag";
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, {}));
+  glUseProgram(name);
+  GLuint finer = targets.position();
+  for (int i = 0; i < plan.pyramid_levels; ++i) {
+    const PositionPyramid::Level& level = targets.pyramid().levels()[static_cast<std::size_t>(i)];
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, level.framebuffer.name());
+    glViewport(0, 0, level.size.width, level.size.height);
+    glBindTextureUnit(UNIT_POSITION, finer);
+    draw_layers(commands, "pyramid", timers);
+    finer = level.position.name();
+  }
+  glViewport(0, 0, targets.size().width, targets.size().height);
+  return {};
+}
+
+Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
+                                      const Targets& targets, PassTimers& timers) {
+  const occlusion::Method& method = *inputs.settings.ao.method;
+  gl::Flags flags;
+  for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
+                                     {method.normal, "NORMAL"},
+                                     {plan.upsample, "HALF_RESOLUTION"},
+                                     {method.pyramid != occlusion::Pyramid::kNone, "PYRAMID"}}) {
+    if (is_set) flags.emplace_back(flag);
+  }
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", fmt::format("ao/{}.frag", method.name)}, flags));
+  glUseProgram(name);
+  const ImageSize size = plan.upsample ? targets.half_size() : targets.size();
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(0));
+  glViewport(0, 0, size.width, size.height);
+  glBindTextureUnit(UNIT_POSITION, targets.position());
+  if (method.normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  for (int i = 0; i < plan.pyramid_levels; ++i)
+    glBindTextureUnit(UNIT_PYRAMID + static_cast<GLuint>(i),
+                      targets.pyramid().levels()[static_cast<std::size_t>(i)].position.name());
+  draw_layers(commands, "ao", timers);
+  glViewport(0, 0, targets.size().width, targets.size().height);
+  return plan.upsample ? upsample(commands, targets, timers) : Status();
+}
+
+Status FramePasses::upsample(const CommandList& commands, const Targets& targets, PassTimers& timers) {
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, {}));
+  glUseProgram(name);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
+  glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  glBindTextureUnit(UNIT_AO, targets.half_ao());
+  draw_layers(commands, "ao_upsample", timers);
+  return {};
+}
+
+Status FramePasses::blur(const CommandList& commands, const AoSettings& ao, const Targets& targets,
+                         PassTimers& timers) {
+  const bool is_gaussian = ao.blur == AoBlur::kGaussian;
+  const char* fragment = is_gaussian ? "passes/blur.frag" : "passes/blur_geometry.frag";
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, {}));
+  glUseProgram(name);
+  if (is_gaussian) {
+    const auto weights = gaussian_weights(ao.blur_sigma_px);
+    glUniform1i(kBlurTaps, static_cast<GLint>(weights.size()) - 1);
+    glUniform1fv(kBlurWeights, static_cast<GLsizei>(weights.size()), weights.data());
+  } else {
+    glUniform1i(kBlurTaps, ao.blur_taps);
+    glBindTextureUnit(UNIT_POSITION, targets.position());
+    glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  }
+  for (int i = 0; i < 2; ++i) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(1 - i));
+    glBindTextureUnit(UNIT_AO, targets.ao(i));
+    glUniform2i(kBlurDirection, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
+    draw_layers(commands, i == 0 ? "blur_horizontal" : "blur_vertical", timers);
+  }
+  return {};
+}
+
+}  // namespace lfd

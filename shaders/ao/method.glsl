@@ -1,0 +1,159 @@
+// Pass 3, what all methods of ambient occlusion share. A method's file includes this and defines occlusion(); its numbers are floats
+// in a uniform block `Parameters` (proto/occlusion/NAME.cc), its sample set is `samples`.
+#include "shared/bindings.glsl"
+#include "shared/module_params.glsl"
+#include "shared/frame_params.glsl"
+#include "shared/ao_params.glsl"
+#include "lib/optics.glsl"
+#include "lib/half_resolution.glsl"
+#include "lib/image_map.glsl"
+#include "lib/sampling.glsl"
+
+layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
+layout(std140, binding = BINDING_AO) uniform Ao { AoParams ao; };
+layout(std140, binding = BINDING_AO_SAMPLES) uniform AoSamples { vec4 samples[AO_MOST_SAMPLES]; };
+layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
+#ifdef NORMAL
+layout(binding = UNIT_NORMAL) uniform sampler2DArray normals;
+#endif
+
+#ifdef PYRAMID
+// Positions at lower resolutions; level 0 is `positions`.
+layout(binding = UNIT_PYRAMID) uniform sampler2DArray pyramid[PYRAMID_LEVELS - 1];
+#endif
+
+flat in int layer;
+layout(location = 0) out float out_hidden;  // 0 open, 1 hidden; -1 where there is no surface
+
+// The surface of the pixel that is shaded.
+struct Spot {
+  ModuleParams m;
+  vec3 p;       // world minus ROI centre
+  vec3 normal;  // world, unit, on the side that is seen; of methods that read normals
+};
+
+// 0 open, 1 hidden, within the radius (m, in the world).
+float occlusion(Spot spot, float radius);
+
+// The pixel of the full picture that is shaded, and its middle.
+ivec2 own_pixel() {
+#ifdef HALF_RESOLUTION
+  return full_pixel(ivec2(gl_FragCoord.xy), textureSize(positions, 0).xy);
+#else
+  return ivec2(gl_FragCoord.xy);
+#endif
+}
+vec2 own_place() { return vec2(own_pixel()) + 0.5; }
+
+int sample_count() { return int(ao.radii.z); }
+
+// Three numbers in [0, 1) of this pixel of this module.
+vec3 noise() { return noise_of_pixel(uvec2(own_pixel()), uint(modules[layer].tangential.z), uint(ao.radii.w)); }
+
+// physical point of a world point counted from the ROI centre
+vec3 physical_from_world(vec3 p) {
+  return vec3(dot(frame.physical_from_world_0, vec4(p, 1.0)), dot(frame.physical_from_world_1, vec4(p, 1.0)),
+              dot(frame.physical_from_world_2, vec4(p, 1.0)));
+}
+
+// The display's axes in the world, unit. What is random is laid out along them, so that pictures do not know how the world is turned.
+mat3 axes_of_display() {
+  mat3 world_from_physical =
+      transpose(mat3(frame.world_from_physical_0.xyz, frame.world_from_physical_1.xyz, frame.world_from_physical_2.xyz));
+  return mat3(normalize(world_from_physical[0]), normalize(world_from_physical[1]), normalize(world_from_physical[2]));
+}
+
+// Stored position of a pixel; w 0 beside the image and where there is no surface.
+vec4 surface_of(ivec2 pixel) {
+  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(positions, 0).xy))) return vec4(0.0);
+  return texelFetch(positions, ivec3(pixel, layer), 0);
+}
+
+#ifdef PYRAMID
+// The same of a level of the pyramid. (Arrays of samplers are indexed by constants, so that pixels may differ.)
+vec4 surface_of_level(int level, ivec2 pixel) {
+  if (level == 0) return surface_of(pixel);
+  ivec2 size = level == 1 ? textureSize(pyramid[0], 0).xy : level == 2 ? textureSize(pyramid[1], 0).xy
+             : level == 3 ? textureSize(pyramid[2], 0).xy : textureSize(pyramid[3], 0).xy;
+  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) return vec4(0.0);
+  ivec3 at = ivec3(pixel, layer);
+  return level == 1 ? texelFetch(pyramid[0], at, 0) : level == 2 ? texelFetch(pyramid[1], at, 0)
+       : level == 3 ? texelFetch(pyramid[2], at, 0) : texelFetch(pyramid[3], at, 0);
+}
+#endif
+
+// Position stored at a point of the image: on the surface through four pixels where all of them have one, else that of the pixel it
+// lies in. A sample of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
+vec4 surface_at(vec2 pixel) {
+  ivec2 most = textureSize(positions, 0).xy - 2;
+  vec4 nearest = texelFetch(positions, ivec3(pixel, layer), 0);
+  if (any(lessThan(most, ivec2(0)))) return nearest;
+  ivec2 first = clamp(ivec2(floor(pixel - 0.5)), ivec2(0), most);  // at the border the surface goes on straight for half a pixel
+  vec2 share = pixel - 0.5 - vec2(first);
+  ivec3 at = ivec3(first, layer);
+  vec4 above = mix(texelFetch(positions, at, 0), texelFetch(positions, at + ivec3(1, 0, 0), 0), share.x);
+  vec4 below = mix(texelFetch(positions, at + ivec3(0, 1, 0), 0), texelFetch(positions, at + ivec3(1, 1, 0), 0), share.x);
+  vec4 surface = mix(above, below, share.y);
+  return abs(surface.w - 1.0) < 1e-4 ? surface : nearest;
+}
+
+// The surface that hides a point from the viewers: the one stored where the point's image is, if that lies in front of it (larger
+// depth). w 0 where none does; points without an image or a surface are in the open.
+vec4 surface_before(ModuleParams m, vec3 p) {
+  vec4 q = image_from_physical(m, physical_from_world(p));
+  if (q.w == 0.0) return vec4(0.0);
+  vec4 surface = surface_at(q.xy);
+  return surface.w != 0.0 && depth_of(m, physical_from_world(surface.xyz)) > q.z ? surface : vec4(0.0);
+}
+
+// Unit vector in the world along the pixel's own line, to the viewers.
+vec3 to_viewers(Spot spot) {
+  vec3 d = line_direction(spot.m, screen_from_physical(spot.m, physical_from_world(spot.p)).xy);
+  return normalize(vec3(dot(frame.world_from_physical_0.xyz, d), dot(frame.world_from_physical_1.xyz, d),
+                        dot(frame.world_from_physical_2.xyz, d)));
+}
+
+// The plane across the pixel's own line: two axes in the world, turned by `turn` radians, and how many pixels of the image a metre
+// along each is (the map's Jacobian, by differences over half a radius).
+struct Disk {
+  vec3 view, x, y;
+  mat2 pixels_per_m;
+};
+
+// Place in the image, beside it too.
+vec2 place_of(ModuleParams m, vec3 p) { return image_from_screen(m, screen_from_physical(m, physical_from_world(p)).xy).xy; }
+
+Disk disk_across(Spot spot, float radius, float turn) {
+  Disk disk;
+  disk.view = to_viewers(spot);
+  mat3 axes = axes_of_display();
+  vec3 a = normalize(cross(abs(dot(disk.view, axes[0])) < 0.7 ? axes[0] : axes[1], disk.view)), b = cross(disk.view, a);
+  disk.x = cos(turn) * a + sin(turn) * b;
+  disk.y = cross(disk.view, disk.x);
+  float e = 0.25 * radius;
+  disk.pixels_per_m = mat2(place_of(spot.m, spot.p + e * disk.x) - place_of(spot.m, spot.p - e * disk.x),
+                           place_of(spot.m, spot.p + e * disk.y) - place_of(spot.m, spot.p - e * disk.y)) / (2.0 * e);
+  return disk;
+}
+
+// Stored surface at an offset (m) in the disk. w 0: none, or the pixel's own.
+vec4 surface_at_offset(Disk disk, vec2 offset) {
+  ivec2 pixel = ivec2(floor(own_place() + disk.pixels_per_m * offset));
+  return pixel == own_pixel() ? vec4(0.0) : surface_of(pixel);
+}
+
+void main() {
+  ivec3 at = ivec3(own_pixel(), layer);
+  vec4 p = texelFetch(positions, at, 0);
+  out_hidden = -1.0;
+  if (p.w == 0.0) return;
+  Spot spot = Spot(modules[layer], p.xyz, vec3(0.0));
+#ifdef NORMAL
+  spot.normal = normalize(texelFetch(normals, at, 0).xyz);
+#endif
+  float radius = ao.radii.x;
+  float most = 0.0;
+  for (int level = 0; level < int(ao.radii.y); ++level, radius *= 0.5) most = max(most, occlusion(spot, radius));
+  out_hidden = min(most, 1.0);
+}

@@ -1,0 +1,38 @@
+// pyramid_hbao: along random directions steps that grow threefold with each level of the pyramid; in each direction the surface that
+// hides most counts, (1 - r / R) n.v / |v| (Pyramid HBAO, seeds 003, equation 8).
+#version 450 core
+#include "ao/method.glsl"
+
+layout(std140, binding = BINDING_AO_METHOD) uniform Parameters {
+  float levels;      // of the pyramid, the full picture counted
+  float directions;
+  float steps;       // along each direction on each level
+};
+
+float occlusion(Spot spot, float radius) {
+  vec3 random = noise();
+  Disk disk = disk_across(spot, radius, 0.0);
+  float sum = 0.0;
+  for (int i = 0; i < int(directions); ++i) {
+    vec2 own = fract(random.xy + float(i + 1) * vec2(0.75487766624669, 0.56984029099805));  // of each direction (R2 sequence)
+    float angle = 6.28318530718 * own.x;
+    vec2 along = disk.pixels_per_m * vec2(cos(angle), sin(angle));
+    vec2 direction = along / max(length(along), 1e-30);
+    float step_px = 1.0 + own.y, reach_px = 0.0, most = 0.0;
+    int size = 1;
+    for (int level = 0; level < int(levels); ++level) {
+      for (int j = 0; j < int(steps); ++j) {
+        reach_px += step_px;
+        ivec2 pixel = ivec2(floor(own_place() + reach_px * direction));
+        vec4 surface = any(lessThan(pixel, ivec2(0))) ? vec4(0.0) : surface_of_level(level, pixel / size);
+        vec3 v = surface.xyz - spot.p;
+        float r = length(v);
+        if (surface.w != 0.0 && r > 0.0) most = max(most, max(0.0, 1.0 - r / radius) * dot(spot.normal, v) / r);
+      }
+      step_px *= 3.0;
+      size *= 3;
+    }
+    sum += most;
+  }
+  return sum / directions;
+}

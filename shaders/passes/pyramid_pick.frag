@@ -1,0 +1,15 @@
+// One level of the pyramid of positions: one of 2 x 2 pixels of the level before, by turns another one, so that no position is made up
+// (McGuire, Mara & Luebke 2012, "Scalable ambient obscurance", section 2.2).
+#version 450 core
+#include "shared/bindings.glsl"
+
+layout(binding = UNIT_POSITION) uniform sampler2DArray finer;
+
+flat in int layer;
+layout(location = 0) out vec4 out_position;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(finer, 0).xy - 1;
+  ivec2 at = min(2 * pixel + ivec2((pixel.y & 1) ^ 1, (pixel.x & 1) ^ 1), last);
+  out_position = texelFetch(finer, ivec3(at, layer), 0);
+}
