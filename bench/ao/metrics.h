@@ -23,7 +23,7 @@ struct AoDifference {
 };
 
 // Structural similarity over uniform windows of 11 x 11 pixels with population moments, a range Q of 1, k1 = 0.001 and
-// k2 = 0.03, as printed in Pyramid HBAO (seeds 003, equation 10). Both pictures are of one size.
+// k2 = 0.03, as printed in the paper of Pyramid HBAO (2021, equation 10). Both pictures are of one size.
 AoDifference difference(const Openness& reference, const Openness& other);
 
 }  // namespace lfd::bench

@@ -90,7 +90,7 @@ double scalable(Neighbourhood& scene) {
                        }));
 }
 
-// Along every direction the surface that hides most (seeds 003, equation 8), however many levels find it.
+// Along every direction the surface that hides most (Pyramid HBAO, equation 8), however many levels find it.
 double pyramid_hbao(Neighbourhood& scene) {
   double sum = 0;
   for (int i = 0; i < scene.effort().directions; ++i) {

@@ -11,8 +11,8 @@ namespace lfd::reference {
 // Of one surface for one radius: the mean over the hemisphere about its normal of W(r) = max(0, 1 - r / R), r the
 // distance at which a ray hits, 0 where it hits nothing.
 struct RayOcclusion {
-  double cosine = 0;   // weighed by the cosine to the normal (Lambert; design ambient-occlusion, 004 equation 2.5)
-  double uniform = 0;  // every direction alike (003 equation 1)
+  double cosine = 0;   // weighed by the cosine to the normal (Aalund 2013, equation 2.5)
+  double uniform = 0;  // every direction alike (Pyramid HBAO, equation 1)
 };
 
 struct RayChoice {

@@ -1,4 +1,4 @@
-// pyramid_hbao: seeds 003, "Pyramid HBAO", 2021: one cone of ever coarser levels along each direction.
+// pyramid_hbao: "Pyramid HBAO", 2021: along each direction one cone of ever coarser levels.
 #include "proto/occlusion/method.h"
 
 namespace lfd::occlusion {
@@ -14,7 +14,7 @@ constexpr Parameter kParameters[] = {
 
 extern const Method pyramid_hbao;
 const Method pyramid_hbao{.name = "pyramid_hbao",
-                          .source = "Pyramid HBAO (a scalable horizon-based ambient occlusion), equation 8",
+                          .source = "Pyramid HBAO, 2021, equation 8",
                           .parameters = kParameters,
                           .curve = {0, 1, 1},
                           .samples = 0,

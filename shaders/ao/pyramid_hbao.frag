@@ -1,5 +1,5 @@
 // pyramid_hbao: along random directions steps that grow threefold with each level of the pyramid; in each direction the surface that
-// hides most counts, (1 - r / R) n.v / |v| (Pyramid HBAO, seeds 003, equation 8).
+// hides most counts, (1 - r / R) n.v / |v| (Pyramid HBAO, 2021, equation 8).
 #version 450 core
 #include "ao/method.glsl"
 

@@ -1,4 +1,5 @@
-// How alike two surfaces are for a blur that keeps edges (seeds 004, section 5.3). Needs shared/frame_params.glsl.
+// How alike two surfaces are for a blur that keeps edges (Aalund 2013, "A comparative study of screen-space ambient occlusion methods",
+// section 5.3). Needs shared/frame_params.glsl.
 
 // How far apart two world points are along physical z, in metres of the world.
 float depth_between(FrameParams frame, vec3 a, vec3 b) {

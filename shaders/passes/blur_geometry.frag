@@ -1,4 +1,4 @@
-// Passes 4 and 5, blur that knows the surfaces (seeds 004, section 5.3): one direction of neighbours on each side, weighed by how alike
+// Passes 4 and 5, blur that knows the surfaces (Aalund 2013, section 5.3): one direction of neighbours on each side, weighed by how alike
 // they are, not by their distance in the image. Pixels without a surface weigh nothing.
 #version 450 core
 #include "shared/bindings.glsl"

@@ -1,4 +1,4 @@
-// One level of the pyramid of positions: the mean of the surfaces among 3 x 3 pixels of the level before (seeds 003, section 3.3).
+// One level of the pyramid of positions: the mean of the surfaces among 3 x 3 pixels of the level before (Pyramid HBAO, 2021, section 3.3).
 #version 450 core
 #include "shared/bindings.glsl"
 
