@@ -1,4 +1,5 @@
 // lfd-calibrate simulate and fit: observations made of a known display, and a calibration made of observations.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <tuple>
@@ -47,6 +48,9 @@ int run_simulate(SimulateOptions options) {
 int run_fit(const FitCommandOptions& options) {
   const auto start = load_calibration(options.start);
   if (!start) return fail(start.error());
+  std::error_code none_there;
+  if (std::filesystem::equivalent(options.out, options.observations, none_there))
+    return wrong_use(Error(fmt::format("--out {}: would replace the observations", options.out)));
   const auto observations = load_observations(options.observations);
   if (!observations) return fail(observations.error());
   FitOptions fit = options.fit;

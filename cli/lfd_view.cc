@@ -81,6 +81,12 @@ void add_view_command(CLI::App& app, int& exit_code) {
     if (arguments->eye.empty() && !arguments->place) return wrong_use(Error("--eye or --place is needed"));
     if (!arguments->place && !(arguments->eye[2] > 0))
       return wrong_use(Error("--eye: z must be > 0: a viewer stands in front of the screen"));
+    const ClusterOptions& cluster = arguments->cluster;
+    const bool is_rendering_told = !cluster.scene.empty() || !cluster.roi.empty() || !cluster.modules.empty() ||
+                                   !cluster.plan.empty() || cluster.no_ao;
+    if (!arguments->frames.empty() && is_rendering_told)
+      return wrong_use(
+          Error("--frames-dir: nothing is rendered: --scene, --roi, --module, --plan and --no-ao have no say"));
     if (const Status writable = check_writable(arguments->out); !writable) return fail(writable.error());
     return do_with_cluster(arguments->cluster, [&](StopSignals& signals) { return view(*arguments, signals); });
   });

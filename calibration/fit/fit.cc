@@ -60,6 +60,8 @@ ResidualSummary summary_of(std::vector<double> distances) {
   return {quantile(0.5), quantile(0.99), distances.back()};
 }
 
+constexpr double kMostRadiusDeviations = 5;  // of the prior: e times the start's radius, or a part of it
+
 // Of the screen, 1/m; 0: planar.
 double curvature_of(const DisplayCalibration& display) {
   const double radius = display.optics.screen_radius_m;
@@ -147,6 +149,16 @@ Result<Solution> solve(std::span<const PinholeFamily> families, std::span<const 
   return solution;
 }
 
+// Observations of maps that no lens on this cylinder makes are met best by some other cylinder, which then is nobody's.
+Status check_radius(double start_m, double found_m, const std::string& source) {
+  const double deviations = std::abs(std::log(std::abs(found_m / start_m))) / kCurvatureSd;
+  if (deviations <= kMostRadiusDeviations) return {};
+  return Error(fmt::format(
+      "{}: a screen radius of {:.4g} m fits best, {:.3g} standard deviations from the start's {:.4g} m; the "
+      "start is another display's, or its modules are no pinholes on a cylinder",
+      source, found_m, deviations, start_m));
+}
+
 }  // namespace
 
 Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observations& observations,
@@ -167,6 +179,7 @@ Result<FittedDisplay> fit_display(const DisplayCalibration& start, const Observa
 
   FittedDisplay fitted{start, {}, {}, 0, is_held};
   if (is_curved && !is_held) {
+    LFD_TRY_STATUS(check_radius(start.optics.screen_radius_m, 1 / solution->pinholes.curvature, observations.source));
     fitted.display.optics.screen_radius_m = 1 / solution->pinholes.curvature;
     fitted.radius_sd_m = solution->determined.curvature_sd / std::abs(solution->pinholes.curvature);
   }

@@ -10,12 +10,12 @@
 // coordinates: the camera's frame needs no parameters. A similarity of it, applied to all emitters as well, changes no
 // image; on a planar screen any affine change can be taken up by the modules' own poses and focal lengths, so it cannot
 // be observed either. The one thing about the screen that observations tell is the curvature of a curved one: it is
-// common to all modules, and fitted (its logarithm, standard deviation 0.2 about the start's), unless some module needs
-// a grid: what warps of several modules have in common looks like curvature, so that the start's is held then. A planar
-// screen stays planar. Of each pinhole a plane determines eight combinations well, its lens about five more; two
-// (roughly: how far the projector stands, and where along its axis) only through the lens. Priors about the start
-// decide these: standard deviations in pinhole_family.h. They pull on everything else by far less than the
-// observations' noise.
+// common to all modules, and fitted (its logarithm, standard deviation 0.2 about the start's; five of them away the fit
+// is refused), unless some module needs a grid: what warps of several modules have in common looks like curvature, so
+// that the start's is held then. A planar screen stays planar. Of each pinhole a plane determines eight combinations
+// well, its lens about five more; two (roughly: how far the projector stands, and where along its axis) only through the
+// lens. Priors about the start decide these: standard deviations in pinhole_family.h. They pull on everything else by far
+// less than the observations' noise.
 #pragma once
 
 #include <optional>

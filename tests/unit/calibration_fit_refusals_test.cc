@@ -51,6 +51,19 @@ TEST(FitRefusals, WhatCannotBeDetermined) {
   EXPECT_THAT(clump, HasSubstr("undetermined: "));
 }
 
+// Ideal maps fill the screen whatever its radius: as pinholes they belong to a plane.
+TEST(FitRefusals, ARadiusFarFromTheStarts) {
+  for (const double radius : {2.0, -1.0}) {
+    const DisplayCalibration start = *curved(*make_display("desk", 2), radius, false);
+    auto observations =
+        simulate_observations(start, {.outliers = 0, .missing = 0, .points_u = 20, .points_v = 15})->observations;
+    observations.source = "seen.csv";
+    const auto fitted = fit_display(start, observations);
+    ASSERT_FALSE(fitted) << fitted->display.optics.screen_radius_m;
+    EXPECT_THAT(fitted.error().message(), HasSubstr("seen.csv: a screen radius of "));
+  }
+}
+
 TEST(FitRefusals, WhatCannotBeTrue) {
   EXPECT_THAT(refusal([](auto& points) { points[4].in_image.x = 256.5; }), HasSubstr("seen.csv:6: u, v: (256.5, "));
   EXPECT_THAT(refusal([](auto& points) { points[4].module = 2; }),
