@@ -13,9 +13,9 @@
 // common to all modules, and fitted (its logarithm, standard deviation 0.2 about the start's; five of them away the fit
 // is refused), unless some module needs a grid: what warps of several modules have in common looks like curvature, so
 // that the start's is held then. A planar screen stays planar. Of each pinhole a plane determines eight combinations
-// well, its lens about five more; two (roughly: how far the projector stands, and where along its axis) only through the
-// lens. Priors about the start decide these: standard deviations in pinhole_family.h. They pull on everything else by far
-// less than the observations' noise.
+// well, its lens about five more; two (roughly: how far the projector stands, and where along its axis) only through
+// the lens. Priors about the start decide these: standard deviations in pinhole_family.h. They pull on everything else
+// by far less than the observations' noise.
 #pragma once
 
 #include <optional>
