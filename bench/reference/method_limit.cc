@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string_view>
@@ -43,13 +44,12 @@ double starcraft(Neighbourhood& scene) {
 }
 
 double march(Neighbourhood& scene) {
-  const Vector n = scene.normal(), aside = std::abs(n.x) < 0.7 ? Vector(1, 0, 0) : Vector(0, 1, 0);
-  const Vector x = glm::normalize(glm::cross(aside, n)), y = glm::cross(n, x);
+  const glm::dmat3 frame = frame_about(scene.normal());
   const int steps = static_cast<int>(scene.parameter("steps"));
   return mean_of_samples(scene, [&] {
     const double sine2 = scene.uniform(), r = std::sqrt(sine2), phi = 2 * pi * scene.uniform(),
                  jitter = scene.uniform();
-    const Vector direction = r * std::cos(phi) * x + r * std::sin(phi) * y + std::sqrt(1 - sine2) * n;
+    const Vector direction = frame * Vector(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - sine2));
     for (int j = 0; j < steps; ++j) {
       const double way = (j + jitter) / steps;
       const auto distance = scene.hidden_by(way * direction);
@@ -68,27 +68,23 @@ DiskPoint in_disk(Neighbourhood& scene) {
   return {std::sqrt(r2) * std::cos(phi), std::sqrt(r2) * std::sin(phi), r2};
 }
 
-double alchemy(Neighbourhood& scene) {
-  return std::min(1.0, 2 * scene.parameter("sigma") * mean_of_samples(scene, [&] {
-                         const DiskPoint d = in_disk(scene);
-                         const auto v = scene.surface_at(scene.in_disk(d.x, d.y));
-                         if (!v) return 0.0;
-                         return std::max(0.0, glm::dot(*v, scene.normal()) - scene.parameter("beta")) /
-                                (glm::dot(*v, *v) + scene.parameter("epsilon"));
-                       }));
+// Of surfaces at most `farthest` radii away.
+double obscurance(Neighbourhood& scene, double farthest) {
+  const auto sample = [&] {
+    const DiskPoint d = in_disk(scene);
+    const auto v = scene.surface_at(scene.in_disk(d.x, d.y));
+    if (!v || glm::length(*v) > farthest) return 0.0;
+    return std::max(0.0, glm::dot(*v, scene.normal()) - scene.parameter("beta")) /
+           (glm::dot(*v, *v) + scene.parameter("epsilon"));
+  };
+  return std::min(1.0, 2 * scene.parameter("sigma") * mean_of_samples(scene, sample));
 }
+
+double alchemy(Neighbourhood& scene) { return obscurance(scene, std::numeric_limits<double>::infinity()); }
 
 // Its taps are as dense in every direction; rings outward are longer, so that they count more: over the disk it is
 // alchemy, of what lies within the ball.
-double scalable(Neighbourhood& scene) {
-  return std::min(1.0, 2 * scene.parameter("sigma") * mean_of_samples(scene, [&] {
-                         const DiskPoint d = in_disk(scene);
-                         const auto v = scene.surface_at(scene.in_disk(d.x, d.y));
-                         if (!v || glm::dot(*v, *v) > 1) return 0.0;
-                         return std::max(0.0, glm::dot(*v, scene.normal()) - scene.parameter("beta")) /
-                                (glm::dot(*v, *v) + scene.parameter("epsilon"));
-                       }));
-}
+double scalable(Neighbourhood& scene) { return obscurance(scene, 1); }
 
 // Along every direction the surface that hides most (Pyramid HBAO, equation 8), however many levels find it.
 double pyramid_hbao(Neighbourhood& scene) {

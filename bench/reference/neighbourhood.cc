@@ -9,6 +9,12 @@
 
 namespace lfd::reference {
 
+glm::dmat3 frame_about(glm::dvec3 n, const glm::dmat3& axes) {
+  const glm::dvec3 aside = std::abs(glm::dot(n, axes[0])) < 0.7 ? axes[0] : axes[1];
+  const glm::dvec3 x = glm::normalize(glm::cross(aside, n));
+  return {x, glm::cross(n, x), n};
+}
+
 Neighbourhood::Neighbourhood(const Intersector& intersector, const ModuleView& view, const Spot& spot,
                              const AoSettings& settings, double radius_m, const LimitEffort& effort)
     : intersector_(intersector),
@@ -24,11 +30,11 @@ Neighbourhood::Neighbourhood(const Intersector& intersector, const ModuleView& v
   view_vector_ =
       glm::normalize(to_glm(world_from_physical * line->on_observer_line - world_from_physical * line->on_screen));
   // Along the display's axes, as the shaders: a method with few directions depends on them.
-  const Vector right = glm::normalize(world_from_physical.linear[0]),
-               up = glm::normalize(world_from_physical.linear[1]);
-  const Vector aside = std::abs(glm::dot(view_vector_, right)) < 0.7 ? right : up;
-  x_ = glm::normalize(glm::cross(aside, view_vector_));
-  y_ = glm::cross(view_vector_, x_);
+  const glm::dmat3& axes = world_from_physical.linear;
+  const glm::dmat3 frame =
+      frame_about(view_vector_, {glm::normalize(axes[0]), glm::normalize(axes[1]), glm::normalize(axes[2])});
+  x_ = frame[0];
+  y_ = frame[1];
 }
 
 Neighbourhood::Vector Neighbourhood::in_ball(double inner) {

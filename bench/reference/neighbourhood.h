@@ -1,6 +1,7 @@
 // What a method of ambient occlusion sees around a spot: the surfaces that the module's own lines meet there.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <random>
@@ -9,6 +10,9 @@
 #include "bench/reference/method_limit.h"
 
 namespace lfd::reference {
+
+// Axes with the unit vector n as the third; the first is across n and one of `axes`.
+glm::dmat3 frame_about(glm::dvec3 n, const glm::dmat3& axes = glm::dmat3(1));
 
 // Points are in the world, in units of the radius and counted from the spot. All that it is made of must outlive it.
 class Neighbourhood {

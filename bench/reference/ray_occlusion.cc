@@ -3,24 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
 
 #include "base/check.h"
+#include "bench/reference/neighbourhood.h"
 #include "bench/reference/parallel_rows.h"
 
 namespace lfd::reference {
 namespace {
 
 constexpr double kOffSurface = 1e-6;  // of the ROI diagonal
-
-// Axes with the unit vector n as the third.
-glm::dmat3 frame_about(glm::dvec3 n) {
-  const glm::dvec3 aside = std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 x = glm::normalize(glm::cross(aside, n));
-  return {x, glm::cross(n, x), n};
-}
 
 }  // namespace
 
