@@ -38,7 +38,8 @@ std::string parameter_names(const occlusion::Method& method) {
 
 // Method, its parameters and its samples.
 Status read_method(const proto::AmbientOcclusion& m, AoSettings& ao) {
-  if (!m.method().empty()) ao.method = occlusion::find_method(m.method());
+  ao.explicit_method = !m.method().empty();
+  if (ao.explicit_method) ao.method = occlusion::find_method(m.method());
   if (ao.method == nullptr) {
     std::vector<std::string> names;
     for (const occlusion::Method* method : occlusion::methods()) names.emplace_back(method->name);
@@ -68,6 +69,28 @@ Status read_method(const proto::AmbientOcclusion& m, AoSettings& ao) {
   return {};
 }
 
+// What combines with any method.
+Status read_options(const proto::AmbientOcclusion& m, AoSettings& ao) {
+  LFD_TRY_STATUS(check_range("ao.guard_band_px", m.guard_band_px(), 0, 1024));
+  LFD_TRY_STATUS(check_range("ao.least_samples", m.least_samples(), 0, 256));
+  LFD_TRY_STATUS(check_range("ao.shared.neighbours", m.shared().neighbours(), 0, 8));
+  LFD_TRY_STATUS(check_range("ao.budget_ms", m.budget_ms(), 0, 1e6));
+  if (m.shared().open_air() && m.shared().neighbours() == 0)
+    return Error("ao.shared.open_air: with neighbours only; ao.shared.neighbours is 0");
+  if (m.bent_normals() && !ao.method->directions)
+    return Error(fmt::format("ao.bent_normals: {} has no directions", ao.method->name));
+  if (m.shared().open_air() && !ao.method->points)
+    return Error(fmt::format("ao.shared.open_air: {} does not ask whether points are hidden", ao.method->name));
+  ao.half_resolution = m.half_resolution();
+  ao.bent_normals = m.bent_normals();
+  ao.guard_band_px = m.guard_band_px();
+  ao.least_samples = m.least_samples();
+  ao.shared_neighbours = m.shared().neighbours();
+  ao.shared_open_air = m.shared().open_air();
+  ao.budget_ms = m.budget_ms();
+  return {};
+}
+
 Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
   AoSettings ao;
   if (m.has_enabled()) ao.enabled = m.enabled();
@@ -81,7 +104,7 @@ Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
   ao.generator = static_cast<SampleGenerator>(m.generator());
   LFD_TRY_STATUS(check_range("ao.generator", m.generator(), 0, 3));
   ao.seed = m.seed();
-  ao.half_resolution = m.half_resolution();
+  LFD_TRY_STATUS(read_options(m, ao));
   if (m.has_curve()) ao.curve = {m.curve().a(), m.curve().b(), m.curve().c()};
   LFD_TRY_STATUS(check_range("ao.curve.a", ao.curve.a, -1, 1));
   LFD_TRY_STATUS(check_range("ao.curve.b", ao.curve.b, 1e-3, 1e3));

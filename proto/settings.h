@@ -36,12 +36,22 @@ struct AoSettings {
   double blur_sigma_px = 1.5;  // of kGaussian
   int blur_taps = 2;           // of kGeometry, on each side
   bool half_resolution = false;
+  bool bent_normals = false;
+  int guard_band_px = 0;
+  int least_samples = 0;      // 0: as many everywhere
+  int shared_neighbours = 0;  // to each side
+  bool shared_open_air = false;
+  double budget_ms = 0;          // 0: none
+  bool explicit_method = false;  // the message names one: it is taken whatever the budget
   AoTarget target = AoTarget::kAmbientLight;
   bool operator==(const AoSettings&) const = default;
 
   // One of the method's parameters; it has one of that name.
   double& parameter(std::string_view name);
   double parameter(std::string_view name) const;
+
+  // Whether the node chooses the method by its own times.
+  bool is_chosen_by_budget() const { return budget_ms > 0 && !explicit_method; }
 
   // What every pixel turns for itself; empty where the method takes no samples.
   std::vector<glm::vec4> sample_set() const;

@@ -22,7 +22,6 @@ const Method alchemy{.name = "alchemy",
                      .parameters = kParameters,
                      .curve = {0, 1.005, 5},
                      .samples = 16,
-                     .pairs = false,
                      .normal = true,
                      .sample_set = sample_set};
 

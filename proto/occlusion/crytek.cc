@@ -16,8 +16,8 @@ const Method crytek{.name = "crytek",
                     .parameters = {},
                     .curve = {0.57, 1, 5},
                     .samples = 16,
-                    .pairs = false,
-                    .normal = false,
+                    .directions = true,
+                    .points = true,
                     .sample_set = sample_set};
 
 }  // namespace lfd::occlusion

@@ -20,9 +20,7 @@ const Method gtao{.name = "gtao",
                   .source = "Jimenez et al., 2016, section 4; bitmask: Therrien et al., 2023",
                   .parameters = kParameters,
                   .curve = {0, 1, 1},
-                  .samples = 0,
-                  .pairs = false,
                   .normal = true,
-                  .sample_set = nullptr};
+                  .directions = true};
 
 }  // namespace lfd::occlusion

@@ -17,9 +17,7 @@ const Method hbao{.name = "hbao",
                   .source = "Bavoil et al., SIGGRAPH 2008 talk",
                   .parameters = kParameters,
                   .curve = {0, 1.03, 4},
-                  .samples = 0,
-                  .pairs = false,
                   .normal = true,
-                  .sample_set = nullptr};
+                  .directions = true};
 
 }  // namespace lfd::occlusion

@@ -20,8 +20,9 @@ const Method march{.name = "march",
                    .parameters = kParameters,
                    .curve = {0, 1, 1},
                    .samples = 16,
-                   .pairs = false,
                    .normal = true,
+                   .directions = true,
+                   .points = true,
                    .sample_set = sample_set};
 
 }  // namespace lfd::occlusion

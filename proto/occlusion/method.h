@@ -55,6 +55,8 @@ struct Method {
   int samples = 0;                        // per radius unless the settings say; 0: it takes none
   bool pairs = false;                     // samples come in pairs: an odd number is refused
   bool normal = false;                    // reads the surface's normal
+  bool directions = false;                // knows which directions are open: bent normals are possible
+  bool points = false;                    // asks whether points are hidden: neighbours can answer too
   Pyramid pyramid = Pyramid::kNone;       // reads it
   SampleSet sample_set = nullptr;         // null: it takes none, or makes its own
 };

@@ -17,10 +17,8 @@ const Method pyramid_hbao{.name = "pyramid_hbao",
                           .source = "Pyramid HBAO, 2021, equation 8",
                           .parameters = kParameters,
                           .curve = {0, 1, 1},
-                          .samples = 0,
-                          .pairs = false,
                           .normal = true,
-                          .pyramid = Pyramid::kAveraged,
-                          .sample_set = nullptr};
+                          .directions = true,
+                          .pyramid = Pyramid::kAveraged};
 
 }  // namespace lfd::occlusion

@@ -20,9 +20,7 @@ const Method scalable{.name = "scalable",
                       .parameters = kParameters,
                       .curve = {0, 1.005, 5},
                       .samples = 16,
-                      .pairs = false,
                       .normal = true,
-                      .pyramid = Pyramid::kPicked,
-                      .sample_set = nullptr};
+                      .pyramid = Pyramid::kPicked};
 
 }  // namespace lfd::occlusion

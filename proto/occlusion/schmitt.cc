@@ -16,9 +16,6 @@ const Method schmitt{.name = "schmitt",
                      .source = "Schmitt, CSC 572 (2008)",
                      .parameters = kParameters,
                      .curve = {0, 1, 1},
-                     .samples = 0,
-                     .pairs = false,
-                     .normal = true,
-                     .sample_set = nullptr};
+                     .normal = true};
 
 }  // namespace lfd::occlusion

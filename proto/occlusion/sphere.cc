@@ -21,8 +21,8 @@ const Method sphere{.name = "sphere",
                     .parameters = kParameters,
                     .curve = {0.5, 1, 1},
                     .samples = 8,
-                    .pairs = false,
-                    .normal = false,
+                    .directions = true,
+                    .points = true,
                     .sample_set = sample_set};
 
 }  // namespace lfd::occlusion

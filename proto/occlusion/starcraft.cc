@@ -16,8 +16,9 @@ const Method starcraft{.name = "starcraft",
                        .parameters = {},
                        .curve = {0, 1.12, 2.5},
                        .samples = 16,
-                       .pairs = false,
                        .normal = true,
+                       .directions = true,
+                       .points = true,
                        .sample_set = sample_set};
 
 }  // namespace lfd::occlusion

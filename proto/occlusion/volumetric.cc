@@ -22,7 +22,6 @@ const Method volumetric{.name = "volumetric",
                         .curve = {0.5, 1.01, 8},
                         .samples = 16,
                         .pairs = true,
-                        .normal = false,
                         .sample_set = sample_set};
 
 }  // namespace lfd::occlusion

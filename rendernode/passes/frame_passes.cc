@@ -72,7 +72,8 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   const shared::FrameParams params = frame_params(in, in.lights.count);
   frame_params_ = gl::make_buffer(std::span(&params, 1));
   const AoSettings& ao = in.settings.ao;
-  const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536}};
+  const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536},
+                                  {ao.least_samples, ao.guard_band_px, 0, 0}};
   ao_params_ = gl::make_buffer(std::span(&ao_params, 1));
   std::vector<glm::vec4> samples = ao.sample_set();
   samples.resize(AO_MOST_SAMPLES);
