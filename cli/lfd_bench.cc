@@ -11,6 +11,7 @@
 #include "bench/frame/print.h"
 #include "bench/map/map_bench.h"
 #include "bench/stability/suite.h"
+#include "cli/lfd_bench.h"
 #include "cli/lfd_commands.h"
 #include "proto/settings.h"
 
@@ -25,13 +26,6 @@ struct Arguments {
   bool json = false;
 };
 
-// Nothing is left behind that would have to be tidied up, and frames cannot be interrupted otherwise.
-void end_by_signal(int) {
-  constexpr std::string_view kLine = "error: ended by a signal; nothing is written\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
-  ::_exit(kExitFailed);
-}
-
 Status write_all(const std::filesystem::path& folder, const bench::FrameTable& table) {
   LFD_TRY_STATUS(write_file(folder / "frame.txt", bench::text_of(table)));
   LFD_TRY_STATUS(write_file(folder / "frame.csv", bench::csv_of(table)));
@@ -45,7 +39,7 @@ int bench_frame(Arguments& a) {
     proto::RegionOfInterest& roi = a.options.roi.emplace();
     set_box(*roi.mutable_world_centre(), *roi.mutable_world_size(), a.roi);
   }
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_by_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_bench_by_signal);
   if (const Status possible = bench::check_options(a.options); !possible) return wrong_use(possible.error());
   if (!a.out.empty()) {
     if (const Status folder = make_folder(a.out); !folder) return fail(folder.error());
@@ -66,7 +60,7 @@ struct MapArguments {
 
 int bench_map(MapArguments& a) {
   if (!a.display.empty()) a.options.overrides.display = a.display;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_by_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, end_bench_by_signal);
   if (const Status folder = make_folder(a.out); !folder) return fail(folder.error());
   const auto table = bench::map_bench(a.options);
   if (!table) return fail(table.error());
@@ -144,6 +138,12 @@ void add_bench_stability(CLI::App& bench, int& exit_code) {
 
 }  // namespace
 
+void end_bench_by_signal(int) {
+  constexpr std::string_view kLine = "error: ended by a signal; nothing is written\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::_exit(kExitFailed);
+}
+
 void add_bench_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
@@ -174,6 +174,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   frame->add_option("--out", a.out, "Folder for frame.txt, frame.csv and frame.json");
   frame->add_flag("--json", a.json, "Print JSON instead of the table");
   add_bench_stability(*bench, exit_code);
+  add_bench_ao(*bench, exit_code);
 }
 
 }  // namespace lfd

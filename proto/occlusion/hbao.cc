@@ -5,7 +5,7 @@ namespace lfd::occlusion {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"directions", 8, 1, 64, "in the plane across the pixel's own line", true},
+    {"directions", 8, 1, 128, "in the plane across the pixel's own line", true},
     {"steps", 6, 1, 80, "along each direction", true},
     {"bias", 0.3, 0, 1.5, "rad, added to the tangent's angle"},
 };

@@ -1,0 +1,67 @@
+// Errors of pictures.
+#include "bench/ao/judge.h"
+
+#include <cmath>
+
+namespace lfd::bench {
+namespace {
+
+std::optional<occlusion::Curve> fit(const JointHistogram& histogram, const Rung& rung) {
+  if (histogram.empty()) return std::nullopt;
+  return fit_curve(histogram, curve_of(rung));
+}
+
+}  // namespace
+
+void Fits::add(const std::string& scene, const Rung& rung, double radius_share, const JointHistogram& histogram) {
+  seen_[key_of(rung)][radius_share][scene].add(histogram);
+}
+
+std::optional<occlusion::Curve> Fits::without(const std::string& scene, const Rung& rung, double radius_share) const {
+  const auto of_rung = seen_.find(key_of(rung));
+  if (of_rung == seen_.end()) return std::nullopt;
+  const auto of_radius = of_rung->second.find(radius_share);
+  if (of_radius == of_rung->second.end()) return std::nullopt;
+  JointHistogram others;
+  for (const auto& [name, histogram] : of_radius->second) {
+    if (name != scene) others.add(histogram);
+  }
+  return fit(others, rung);
+}
+
+std::optional<occlusion::Curve> Fits::over_all(const Rung& rung) const {
+  const auto of_rung = seen_.find(key_of(rung));
+  if (of_rung == seen_.end()) return std::nullopt;
+  JointHistogram all;
+  for (const auto& [radius, scenes] : of_rung->second) {
+    for (const auto& [name, histogram] : scenes) all.add(histogram);
+  }
+  return fit(all, rung);
+}
+
+occlusion::Curve curve_of(const Rung& rung) {
+  if (!rung.settings.has_curve()) return occlusion::find_method(rung.method())->curve;
+  const auto& curve = rung.settings.curve();
+  return {curve.a(), curve.b(), curve.c()};
+}
+
+AoJudgement Judge::judge(const Measurement& seen, const occlusion::Curve& curve) const {
+  const Openness open = curved(seen.open, curve);
+  const AoDifference off = difference(cosine, open);
+  AoJudgement found{off.mae, off.ssim, off.mean, difference(uniform, open).mae, mae_where(cosine, open, silhouette), 0};
+  if (!seen.beside.value.empty()) found.inconsistent = inconsistent_share(points, open, curved(seen.beside, curve));
+  return found;
+}
+
+double mae_where(const Openness& reference, const Openness& other, const Openness& mask) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < reference.value.size(); ++i) {
+    if (reference.value[i] < 0 || other.value[i] < 0 || !(mask.value[i] > 0.5F)) continue;
+    sum += std::abs(double{other.value[i]} - reference.value[i]);
+    ++count;
+  }
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+}  // namespace lfd::bench

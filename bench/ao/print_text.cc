@@ -1,0 +1,209 @@
+// The table for people, in Markdown.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "base/log.h"
+#include "bench/ao/ao_bench.h"
+#include "bench/ao/print_text.h"
+
+namespace lfd::bench {
+namespace {
+
+double fitted_mae(const AoRow& row) { return row.fitted ? row.fitted->judged.mae : row.judged.mae; }
+
+double fitted_inconsistent(const AoRow& row) {
+  return row.fitted ? row.fitted->judged.inconsistent : row.judged.inconsistent;
+}
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+std::string subject_text(const AoTable& table) {
+  const AoRow& first = table.rows.front();
+  std::string text =
+      fmt::format("# Ambient occlusion: error against run time\n\n{}. lfd {}.\n", table.renderer, table.version);
+  text += fmt::format(
+      "Display {}, images of {}x{} px; reference: {} rays a pixel, cosine-weighted, linear falloff. Errors are of "
+      "openness (1 - ao) after\n"
+      "blur and curve, over pixels with a surface; *fitted*: the curve's a, b, c fitted on the other scenes at the "
+      "same radius. Times are GPU\n"
+      "timer queries around the passes, of one module, the median of {} frames; *x*: over `sphere` as it comes, drawn "
+      "in the same round.\n"
+      "*Inconsistent*: share of surface points that the next module shows with an occlusion more than 0.02 away.\n",
+      first.display, first.image.width, first.image.height, table.rays, first.frames);
+  return text;
+}
+
+std::string places_text(const AoTable& table) {
+  std::string text =
+      "\n## Places\n\n| scene | module | R, % of the diagonal | R, m | R, px | MAE without occlusion "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const AoPlaceFacts& place : table.places) {
+    const auto row = std::ranges::find_if(table.rows, [&](const AoRow& r) {
+      return r.scene == place.scene && r.module == place.module && r.radius_share == place.radius_share;
+    });
+    if (row == table.rows.end()) continue;
+    text += fmt::format("| {} | {} | {:g} | {:.4g} | {:.1f} | {:.4f} |\n", place.scene, place.module,
+                        100 * place.radius_share, row->radius_m, row->radius_px, place.mae_of_none);
+  }
+  return text;
+}
+
+constexpr const char* kRowTitles =
+    "| method | settings | blur | samples | ms | blur ms | x | MAE | SSIM | fitted MAE | fitted SSIM | inconsistent, "
+    "fitted |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+std::string row_text(const AoRow& r) {
+  return fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} |\n",
+                     r.rung.method(), r.rung.name, r.blur, r.taps.samples, r.occlusion_ms.median, r.blur_ms.median,
+                     r.ratio.median, r.judged.mae, r.judged.ssim, fitted_mae(r),
+                     r.fitted ? r.fitted->judged.ssim : r.judged.ssim, percent(fitted_inconsistent(r)));
+}
+
+// Rows of the middle module at the middle radius of a scene, the fastest first.
+std::vector<AoRow> study_rows(const AoTable& table, const std::string& scene) {
+  std::vector<double> radii;
+  for (const AoPlaceFacts& place : table.places) radii.push_back(place.radius_share);
+  std::ranges::sort(radii);
+  std::vector<AoRow> rows;
+  std::ranges::copy_if(table.rows, std::back_inserter(rows), [&](const AoRow& r) {
+    return r.scene == scene && r.is_middle && r.radius_share == radii[radii.size() / 2];
+  });
+  std::ranges::sort(rows, {}, &AoRow::total_ms);
+  return rows;
+}
+
+std::string fronts_text(const AoTable& table) {
+  std::string text;
+  for (const std::string& scene : table.scenes()) {
+    text += fmt::format(
+        "\n## {}: what nothing is both faster and better than\n\nMiddle module, middle radius, time of blur "
+        "counted.\n\n{}",
+        scene, kRowTitles);
+    double best = 2;
+    for (const AoRow& row : study_rows(table, scene)) {
+      if (row.rung.is_default || fitted_mae(row) >= best) continue;
+      best = fitted_mae(row);
+      text += row_text(row);
+    }
+  }
+  return text;
+}
+
+// Means over the middle modules of all scenes at the middle radius.
+struct Mean {
+  double ms = 0, blur_ms = 0, ratio = 0, mae = 0, fitted = 0, silhouette = 0, inconsistent = 0;
+  int scenes = 0;
+};
+
+Mean mean_of(const AoTable& table, const std::function<bool(const AoRow&)>& is_meant) {
+  Mean mean;
+  for (const std::string& scene : table.scenes()) {
+    for (const AoRow& row : study_rows(table, scene)) {
+      if (!is_meant(row)) continue;
+      mean.ms += row.occlusion_ms.median;
+      mean.blur_ms += row.blur_ms.median;
+      mean.ratio += row.ratio.median;
+      mean.mae += row.judged.mae;
+      mean.fitted += fitted_mae(row);
+      mean.silhouette += row.fitted ? row.fitted->judged.mae_silhouette : row.judged.mae_silhouette;
+      mean.inconsistent += fitted_inconsistent(row);
+      ++mean.scenes;
+    }
+  }
+  for (double* sum :
+       {&mean.ms, &mean.blur_ms, &mean.ratio, &mean.mae, &mean.fitted, &mean.silhouette, &mean.inconsistent})
+    *sum /= std::max(1, mean.scenes);
+  return mean;
+}
+
+std::vector<std::string> methods_of(const AoTable& table) {
+  std::vector<std::string> methods;
+  for (const AoRow& row : table.rows) {
+    if (std::ranges::find(methods, row.rung.method()) == methods.end()) methods.push_back(row.rung.method());
+  }
+  return methods;
+}
+
+std::string options_text(const AoTable& table) {
+  std::string text =
+      "\n## Blurs and options alone\n\nMeans over the scenes, middle module, middle radius; every method as it comes "
+      "but for what is named.\n\n"
+      "| method | what | x | blur ms | MAE | fitted MAE | near silhouettes | inconsistent, fitted "
+      "|\n|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& method : methods_of(table)) {
+    std::vector<std::string> names;
+    for (const AoRow& row : table.rows) {
+      if (row.rung.method() == method && row.rung.name.starts_with("default") &&
+          std::ranges::find(names, row.rung.name) == names.end())
+        names.push_back(row.rung.name);
+    }
+    std::ranges::sort(names);
+    for (const std::string& name : names) {
+      const Mean mean =
+          mean_of(table, [&](const AoRow& r) { return r.rung.method() == method && r.rung.name == name; });
+      text += fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {} |\n", method, name, mean.ratio,
+                          mean.blur_ms, mean.mae, mean.fitted, mean.silhouette, percent(mean.inconsistent));
+    }
+  }
+  return text;
+}
+
+// How a number grows when another doubles, from the first to the last: 1 as fast, 0 not at all.
+double exponent(double from, double to, double x_from, double x_to) {
+  return std::log(to / from) / std::log(x_to / x_from);
+}
+
+double pixels_of(const ScalingRow& row) { return static_cast<double>(row.image.width) * row.image.height; }
+
+std::string scaling_text(const std::vector<ScalingRow>& rows, const char* title, const char* what,
+                         const std::function<double(const ScalingRow&)>& x_of,
+                         const std::function<std::string(const ScalingRow&)>& label) {
+  std::map<std::string, std::vector<ScalingRow>> of_method;
+  for (const ScalingRow& row : rows) of_method[row.method].push_back(row);
+  if (of_method.empty()) return "";
+  std::string text = fmt::format(
+      "\n## {}\n\nThe first scene, middle module, every method as it comes, unfitted: ms, MAE.\n\n| method |", title);
+  const auto& first = of_method.begin()->second;
+  for (const ScalingRow& row : first) text += fmt::format(" {} |", label(row));
+  text += fmt::format(" time grows with {} to the power of | MAE, last over first |\n|---|", what);
+  for (std::size_t i = 0; i < first.size() + 2; ++i) text += "---|";
+  for (const auto& [method, of] : of_method) {
+    text += fmt::format("\n| {} |", method);
+    for (const ScalingRow& row : of) text += fmt::format(" {:.1f}, {:.4f} |", row.occlusion_ms, row.mae);
+    text += fmt::format(" {:.2f} | {:.2f} |",
+                        exponent(of.front().occlusion_ms, of.back().occlusion_ms, x_of(of.front()), x_of(of.back())),
+                        of.back().mae / of.front().mae);
+  }
+  return text + "\n";
+}
+
+std::string front_table(const AoTable& table) {
+  std::string text =
+      "\n## The front that nodes choose from\n\nMeans over all scenes, modules and radii, default blur.\n\n| settings "
+      "| x | fitted MAE |\n|---|---|---|\n";
+  const proto::OcclusionFront front = front_of(table);
+  for (const auto& entry : front.entry())
+    text += fmt::format("| {} | {:.2f} | {:.4f} |\n", entry.name(), entry.ratio(), entry.mae());
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const AoTable& table) {
+  if (table.rows.empty()) return "no rows\n";
+  const auto by_radius = [](const ScalingRow& row) {
+    return fmt::format("R {:g} % ({:.0f} px)", 100 * row.radius_share, row.radius_px);
+  };
+  const auto by_size = [](const ScalingRow& row) { return fmt::format("{}x{}", row.image.width, row.image.height); };
+  return subject_text(table) + places_text(table) + front_table(table) + fronts_text(table) + options_text(table) +
+         sharing_text(table) +
+         scaling_text(
+             table.by_radius, "Growing radius", "the radius", [](const ScalingRow& row) { return row.radius_share; },
+             by_radius) +
+         scaling_text(table.by_size, "Growing resolution", "the pixels", pixels_of, by_size);
+}
+
+}  // namespace lfd::bench
