@@ -139,6 +139,7 @@ Status Renderer::draw(const FrameOptions& options) {
   if (!state_) return Error("there is no state to draw yet");
   Slot& slot = slots_[static_cast<std::size_t>(next_slot_)];
   const auto start = Clock::now();
+  LFD_TRY_STATUS(choose_occlusion());
   slot.options = options;
   slot.roi = roi_;
   slot.ao = settings_.ao;
@@ -146,13 +147,7 @@ Status Renderer::draw(const FrameOptions& options) {
   // Frames are collected in order: by then the images of the one that this repeats are there.
   slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;
   if (!slot.reused) {
-    const bool may_reuse = options.reuse && drawn_buffers_ == options.buffers && !drawn_inputs_.empty();
-    slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
-                            options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_});
-    const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
-    LFD_TRY_STATUS(passes_.submit(slot.plan, commands,
-                                  {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
-                                  targets_, slot.timers));
+    LFD_TRY(slot.plan, submit(options, slot.timers));
     LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image));
     drawn_buffers_.reset();
     drawn_inputs_.clear();
@@ -166,6 +161,21 @@ Status Renderer::draw(const FrameOptions& options) {
   next_slot_ = 1 - next_slot_;
   ++under_way_;
   return {};
+}
+
+FramePlan Renderer::plan(const FrameOptions& options) const {
+  const bool may_reuse = options.reuse && drawn_buffers_ == options.buffers && !drawn_inputs_.empty();
+  return plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
+                     options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_});
+}
+
+Result<FramePlan> Renderer::submit(const FrameOptions& options, PassTimers& timers) {
+  FramePlan made = plan(options);
+  const CommandList commands = make_commands(made, geometry_.items, gpu_materials_.facts, options.time_modules);
+  LFD_TRY_STATUS(passes_.submit(made, commands,
+                                {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
+                                targets_, timers));
+  return made;
 }
 
 bool Renderer::finished(Clock::duration at_most) {
@@ -254,6 +264,7 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
   report.set_renderer(description_);
   report.set_version(kVersion);
   report.set_triangles(geometry_.planes.size());
+  report.set_occlusion_choice(occlusion_choice_);
   auto* geometry = report.add_pass();
   geometry->set_pass("geometry");
   geometry->set_cpu_ms(slot.geometry_ms);

@@ -83,7 +83,18 @@ class Renderer {
     double submit_ms = 0;
   };
 
+  // What was chosen for these settings (AmbientOcclusion, serialised) against their budget, and why.
+  struct ChosenOcclusion {
+    std::string key;
+    AoSettings ao;
+    std::string why;
+  };
+
   Status rebuild(const proto::State& state, const Assets& assets);
+  FramePlan plan(const FrameOptions& options) const;
+  Result<FramePlan> submit(const FrameOptions& options, PassTimers& timers);
+  Status choose_occlusion();  // renderer_choice.cc
+  Result<double> time_occlusion(double far_too_slow_ms);
   std::string why_nothing_is_seen() const;  // empty: something may be
   std::vector<ReadbackItem> wanted(const Slot& slot) const;
   std::vector<ModuleImage> images_of(const Slot& slot) const;
@@ -112,6 +123,8 @@ class Renderer {
   GpuGeometry gpu_geometry_;
   GpuLights gpu_lights_;
   double geometry_ms_ = 0;
+  std::optional<ChosenOcclusion> chosen_;
+  std::string occlusion_choice_;  // for reports; empty without a budget
 
   std::array<Slot, 2> slots_;
   int next_slot_ = 0;
