@@ -34,7 +34,7 @@ struct Arguments {
   std::string scene;
   std::optional<bool> ao_enabled, ao_blur, ao_half;
   std::optional<double> ao_radius_m, ao_sigma_px;
-  std::optional<int> ao_samples, ao_radii;
+  std::optional<int> ao_samples, ao_radii, ao_least_samples;
   std::string ao_method, ao_generator, ao_target, ao_blur_kind;
   std::vector<std::pair<std::string, double>> ao_parameters;
   std::optional<std::uint32_t> ao_seed;
@@ -122,6 +122,7 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   if (arguments.ao_radius_m) ao.set_radius_m(*arguments.ao_radius_m);
   if (arguments.ao_samples) ao.set_samples(*arguments.ao_samples);
   if (arguments.ao_radii) ao.set_radii(*arguments.ao_radii);
+  if (arguments.ao_least_samples) ao.set_least_samples(*arguments.ao_least_samples);
   if (arguments.ao_half) ao.set_half_resolution(*arguments.ao_half);
   if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
   if (arguments.ao_seed) ao.set_seed(*arguments.ao_seed);
@@ -207,6 +208,10 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)")
       ->check(number_within(0, 1e30));
   command.add_option("--samples", a.ao_samples, "Samples per radius")->check(whole_number_within(1, 256));
+  command
+      .add_option("--least-samples", a.ao_least_samples,
+                  "Fewer samples, directions or slices far away, but so many (0: as many everywhere)")
+      ->check(whole_number_within(0, 256));
   command.add_option("--radii", a.ao_radii, "How many radii (R, R/2, R/4, ...)")->check(whole_number_within(1, 8));
   command.add_option("--generator", a.ao_generator, "Of the samples")->check(CLI::IsMember(names_of(kGeneratorNames)));
   command.add_option("--target", a.ao_target, "What is darkened")->check(CLI::IsMember(names_of(kTargetNames)));

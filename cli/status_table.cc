@@ -35,7 +35,7 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
   for (std::size_t i = 0; i < ao.parameters.size(); ++i)
     parameters += fmt::format("{}{} {:g}", i == 0 ? "" : ", ", ao.method->parameters[i].name, ao.parameters[i]);
   return fmt::format(
-      "occlusion  {}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}, seed {}\n"
+      "occlusion  {}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
       "curve      a {:g}, b {:g}, c {:g}\nblur       {}\ntarget     {}\n",
       !ao.enabled          ? "off"
       : ao.half_resolution ? "on, half resolution"
@@ -46,7 +46,8 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
       ao.radii,
       ao.samples > 0 ? fmt::format("{} per radius, {}", ao.samples, name_of(kGeneratorNames, message.generator()))
                      : "none",
-      ao.seed, ao.curve.a, ao.curve.b, ao.curve.c,
+      ao.least_samples > 0 ? fmt::format(", far away fewer, {} at least", ao.least_samples) : "", ao.seed, ao.curve.a,
+      ao.curve.b, ao.curve.c,
       !ao.blur_enabled               ? "off"
       : ao.blur == AoBlur::kGaussian ? fmt::format("Gaussian, sigma {:g} px", ao.blur_sigma_px)
                                      : fmt::format("by geometry, {} taps a side", ao.blur_taps),

@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/log.h"
 #include "base/suggest.h"
+#include "proto/occlusion/sample_sets.h"
 
 namespace lfd {
 namespace {
@@ -69,6 +70,13 @@ Status read_method(const proto::AmbientOcclusion& m, AoSettings& ao) {
   return {};
 }
 
+// Whether it can do with fewer samples, directions or slices.
+bool has_count(const occlusion::Method& method) {
+  return method.samples > 0 || std::ranges::any_of(method.parameters, [](const occlusion::Parameter& one) {
+           return one.name == "directions" || one.name == "slices";
+         });
+}
+
 // What combines with any method.
 Status read_options(const proto::AmbientOcclusion& m, AoSettings& ao) {
   LFD_TRY_STATUS(check_range("ao.guard_band_px", m.guard_band_px(), 0, 1024));
@@ -79,6 +87,8 @@ Status read_options(const proto::AmbientOcclusion& m, AoSettings& ao) {
     return Error("ao.shared.open_air: with neighbours only; ao.shared.neighbours is 0");
   if (m.bent_normals() && !ao.method->directions)
     return Error(fmt::format("ao.bent_normals: {} has no directions", ao.method->name));
+  if (m.least_samples() > 0 && !has_count(*ao.method))
+    return Error(fmt::format("ao.least_samples: {} looks at as many neighbours everywhere", ao.method->name));
   if (m.shared().open_air() && !ao.method->points)
     return Error(fmt::format("ao.shared.open_air: {} does not ask whether points are hidden", ao.method->name));
   ao.half_resolution = m.half_resolution();
@@ -135,7 +145,10 @@ double AoSettings::parameter(std::string_view name) const { return parameters[in
 
 std::vector<glm::vec4> AoSettings::sample_set() const {
   if (method->sample_set == nullptr) return {};
-  return method->sample_set({generator, samples, seed}, parameters);
+  const occlusion::SampleChoice choice{generator, samples, seed};
+  std::vector<glm::vec4> set = method->sample_set(choice, parameters);
+  if (least_samples > 0) occlusion::spread_prefixes(set, choice);
+  return set;
 }
 
 Result<RenderSettings> read_settings(const proto::RenderSettings& m) {

@@ -94,6 +94,23 @@ glm::dvec3 on_sphere(glm::dvec2 x) {  // Algorithm 3
 // A second stream of numbers beside the square's, for what each sample needs once more.
 Random beside(const SampleChoice& choice) { return Random(choice.seed ^ 0x9e3779b9U); }
 
+// Farthest-point order of points of the square; the first stays the first.
+std::vector<std::size_t> farthest_first(const std::vector<glm::dvec2>& points) {
+  std::vector<double> nearest2(points.size(), 8);  // to what is chosen; more than any distance in the square
+  std::vector<std::size_t> order;
+  for (std::size_t next = 0; order.size() < points.size();) {
+    order.push_back(next);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      nearest2[i] = i == next ? -1 : std::min(nearest2[i], wrapped_distance2(points[i], points[next]));
+    next = static_cast<std::size_t>(std::ranges::max_element(nearest2) - nearest2.begin());
+  }
+  return order;
+}
+
+bool is_in_pairs(const std::vector<glm::vec4>& samples) {
+  return samples.size() > 1 && glm::vec3(samples[0]) == -glm::vec3(samples[1]);
+}
+
 // Half as many points where the other half mirrors them.
 std::vector<glm::dvec2> half_or_all(SampleChoice choice, bool pairs) {
   if (pairs) choice.count = (choice.count + 1) / 2;
@@ -151,6 +168,17 @@ std::vector<glm::vec4> cosine_set(const SampleChoice& choice) {
     samples.emplace_back(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - sine2), random.next());
   }
   return samples;
+}
+
+void spread_prefixes(std::vector<glm::vec4>& samples, const SampleChoice& choice) {
+  const bool pairs = is_in_pairs(samples);
+  const std::size_t together = pairs ? 2 : 1;
+  std::vector<glm::dvec2> points = half_or_all(choice, pairs);
+  points.resize(samples.size() / together);  // one without a partner stays the last
+  const std::vector<glm::vec4> made = samples;
+  auto to = samples.begin();
+  for (const std::size_t i : farthest_first(points))
+    to = std::copy_n(made.begin() + static_cast<std::ptrdiff_t>(together * i), together, to);
 }
 
 }  // namespace lfd::occlusion

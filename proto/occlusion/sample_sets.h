@@ -24,4 +24,8 @@ std::vector<glm::vec4> disk_set(const SampleChoice& choice, bool pairs);
 // Unit vectors about +z, as likely as their cosine to it; w: a number in [0, 1) of each sample's own.
 std::vector<glm::vec4> cosine_set(const SampleChoice& choice);
 
+// Orders a set that was made of this choice so that its first k, for every k, are spread over the square: each is the
+// one farthest from all before it (Gonzalez 1985). Samples in pairs stay in pairs.
+void spread_prefixes(std::vector<glm::vec4>& samples, const SampleChoice& choice);
+
 }  // namespace lfd::occlusion

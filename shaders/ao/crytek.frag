@@ -7,8 +7,9 @@ float occlusion(Spot spot, float radius) {
   mat3 axes = axes_of_display();
   vec3 mirror = random_rotation(noise())[2];
   int hidden = 0;
-  for (int i = 0; i < sample_count(); ++i) {
+  int count = sample_count(spot);
+  for (int i = 0; i < count; ++i) {
     if (surface_before(spot.m, spot.p + radius * (axes * reflect(samples[i].xyz, mirror))).w != 0.0) ++hidden;
   }
-  return float(hidden) / float(sample_count());
+  return float(hidden) / float(count);
 }

@@ -65,10 +65,12 @@ uint sectors(Spot spot, Disk disk, vec2 direction, float side, float gamma, floa
 
 float occlusion(Spot spot, float radius) {
   vec3 random = noise();
-  Disk disk = disk_across(spot, radius, pi / slices * random.x);
+  int count = count_at(spot, int(slices));
+  float turn = pi / float(count);  // from one slice to the next
+  Disk disk = disk_across(spot, radius, turn * random.x);
   float open = 0.0, whole = 0.0;
-  for (int i = 0; i < int(slices); ++i) {
-    float angle = pi / slices * float(i);
+  for (int i = 0; i < count; ++i) {
+    float angle = turn * float(i);
     vec2 direction = vec2(cos(angle), sin(angle));
     vec3 along = direction.x * disk.x + direction.y * disk.y;
     vec2 projected = vec2(dot(spot.normal, along), dot(spot.normal, disk.view));  // of the normal into the slice

@@ -11,11 +11,13 @@ layout(std140, binding = BINDING_AO_METHOD) uniform Parameters {
 
 float occlusion(Spot spot, float radius) {
   vec3 random = noise();
-  Disk disk = disk_across(spot, radius, 6.28318530718 / directions * random.x);
+  int count = count_at(spot, int(directions));
+  float turn = 6.28318530718 / float(count);  // from one direction to the next
+  Disk disk = disk_across(spot, radius, turn * random.x);
   float facing = max(dot(spot.normal, disk.view), 1e-3);
   float sum = 0.0;
-  for (int i = 0; i < int(directions); ++i) {
-    float angle = 6.28318530718 / directions * float(i);
+  for (int i = 0; i < count; ++i) {
+    float angle = turn * float(i);
     vec2 direction = vec2(cos(angle), sin(angle));
     vec3 along = direction.x * disk.x + direction.y * disk.y;
     float highest = sin(min(atan(-dot(spot.normal, along), facing) + bias, 1.57079632679));
@@ -30,5 +32,5 @@ float occlusion(Spot spot, float radius) {
       highest = height;
     }
   }
-  return sum / directions;
+  return sum / float(count);
 }

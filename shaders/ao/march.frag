@@ -23,7 +23,8 @@ float occlusion(Spot spot, float radius) {
   mat3 axes = axes_of_display();
   mat3 frame_of_normal = axes * frame_about(normalize(spot.normal * axes), 6.28318530718 * random.x);  // v * m: m^T v
   float sum = 0.0;
-  for (int i = 0; i < sample_count(); ++i)
+  int count = sample_count(spot);
+  for (int i = 0; i < count; ++i)
     sum += hidden_along(spot, frame_of_normal * samples[i].xyz, radius, fract(samples[i].w + random.y));
-  return sum / float(sample_count());
+  return sum / float(count);
 }

@@ -46,8 +46,6 @@ ivec2 own_pixel() {
 }
 vec2 own_place() { return vec2(own_pixel()) + 0.5; }
 
-int sample_count() { return int(ao.radii.z); }
-
 // Three numbers in [0, 1) of this pixel of this module.
 vec3 noise() { return noise_of_pixel(uvec2(own_pixel()), uint(modules[layer].tangential.z), uint(ao.radii.w)); }
 
@@ -62,6 +60,23 @@ mat3 axes_of_display() {
   mat3 world_from_physical =
       transpose(mat3(frame.world_from_physical_0.xyz, frame.world_from_physical_1.xyz, frame.world_from_physical_2.xyz));
   return mat3(normalize(world_from_physical[0]), normalize(world_from_physical[1]), normalize(world_from_physical[2]));
+}
+
+// How many of `all` samples, directions or slices a spot takes. The further it is from the viewers, the fewer, where that is asked for
+// (Aalund 2013, section 5.2.5; depth is 0 at the front limit and 1 at the back one).
+int count_at(Spot spot, int all) {
+  int least = int(ao.options.x);
+  if (least == 0) return all;
+  float depth = (frame.depth.x - depth_of(spot.m, physical_from_world(spot.p))) / (frame.depth.x - frame.depth.z);
+  return clamp(int(float(all) / (1.0 + float(all) * clamp(depth, 0.0, 1.0))), min(least, all), all);
+}
+
+int sample_count(Spot spot) { return count_at(spot, int(ao.radii.z)); }
+
+// The same of samples that come in pairs.
+int paired_count(Spot spot) {
+  int all = int(ao.radii.z);
+  return min((count_at(spot, all) + 1) / 2 * 2, all);
 }
 
 // Stored position of a pixel; w 0 beside the image and where there is no surface.

@@ -13,7 +13,8 @@ float occlusion(Spot spot, float radius) {
   vec3 random = noise();
   Disk disk = disk_across(spot, radius, 0.0);
   float sum = 0.0;
-  for (int i = 0; i < int(directions); ++i) {
+  int count = count_at(spot, int(directions));
+  for (int i = 0; i < count; ++i) {
     vec2 own = fract(random.xy + float(i + 1) * vec2(0.75487766624669, 0.56984029099805));  // of each direction (R2 sequence)
     float angle = 6.28318530718 * own.x;
     vec2 along = disk.pixels_per_m * vec2(cos(angle), sin(angle));
@@ -34,5 +35,5 @@ float occlusion(Spot spot, float radius) {
     }
     sum += most;
   }
-  return sum / directions;
+  return sum / float(count);
 }

@@ -16,7 +16,7 @@ const float kFinestReach_px = 8.0;  // taps nearer than this read the full pictu
 float occlusion(Spot spot, float radius) {
   Disk disk = disk_across(spot, radius, 6.28318530718 * noise().x);
   float sum = 0.0;
-  int count = sample_count();
+  int count = sample_count(spot);
   for (int i = 0; i < count; ++i) {
     float share = (float(i) + 0.5) / float(count), angle = 6.28318530718 * turns * share;
     vec2 offset = disk.pixels_per_m * (share * radius * vec2(cos(angle), sin(angle)));

@@ -11,8 +11,9 @@ layout(std140, binding = BINDING_AO_METHOD) uniform Parameters {
 float occlusion(Spot spot, float radius) {
   mat3 turn = axes_of_display() * random_rotation(noise());
   int hidden = 0;
-  for (int i = 0; i < sample_count(); ++i) {
+  int count = symmetric != 0.0 ? paired_count(spot) : sample_count(spot);
+  for (int i = 0; i < count; ++i) {
     if (surface_before(spot.m, spot.p + radius * (turn * samples[i].xyz)).w != 0.0) ++hidden;
   }
-  return float(hidden) / float(sample_count());
+  return float(hidden) / float(count);
 }

@@ -6,11 +6,12 @@
 float occlusion(Spot spot, float radius) {
   mat3 turn = axes_of_display() * random_rotation(noise());
   float sum = 0.0;
-  for (int i = 0; i < sample_count(); ++i) {
+  int count = sample_count(spot);
+  for (int i = 0; i < count; ++i) {
     vec3 offset = turn * samples[i].xyz;
     vec3 point = spot.p + radius * (dot(offset, spot.normal) < 0.0 ? -offset : offset);
     vec4 surface = surface_before(spot.m, point);
     if (surface.w != 0.0) sum += min(1.0, radius / max(distance(surface.xyz, point), 1e-30));
   }
-  return sum / float(sample_count());
+  return sum / float(count);
 }

@@ -22,7 +22,8 @@ bool is_believed(float share) { return share >= least && share <= most; }
 float occlusion(Spot spot, float radius) {
   Disk disk = disk_across(spot, radius, 6.28318530718 * noise().x);
   float open = 0.0, whole = 0.0;
-  for (int i = 0; i + 1 < sample_count(); i += 2) {
+  int count = paired_count(spot);
+  for (int i = 0; i + 1 < count; i += 2) {
     float half_m = radius * sqrt(max(1.0 - samples[i].w * samples[i].w, 1e-6));
     vec2 share = vec2(open_share(spot, disk, radius * samples[i].xy, half_m), open_share(spot, disk, radius * samples[i + 1].xy, half_m));
     bvec2 believed = bvec2(is_believed(share.x), is_believed(share.y));

@@ -93,6 +93,30 @@ TEST(OcclusionMethods, RefuseWhatTheyCannotBeTold) {
   EXPECT_THAT(error_of(ao), HasSubstr("in pairs"));
 }
 
+TEST(OcclusionMethods, WithACountTakeFewerSamplesFarAway) {
+  for (const occlusion::Method* method : occlusion::methods()) {
+    proto::AmbientOcclusion ao;
+    ao.set_method(std::string(method->name));
+    ao.set_least_samples(3);
+    if (method->name == "schmitt") {
+      EXPECT_EQ(error_of(ao), "ao.least_samples: schmitt looks at as many neighbours everywhere");
+    } else {
+      EXPECT_EQ(read(ao).least_samples, 3) << method->name;
+    }
+  }
+}
+
+TEST(OcclusionMethods, OrderTheirSetsOnlyWhereFewerOfThemAreTaken) {
+  proto::AmbientOcclusion ao;
+  ao.set_method("alchemy");
+  ao.set_generator(proto::AmbientOcclusion::JITTERED);
+  const AoSettings before = read(ao);
+  EXPECT_EQ(before.sample_set(),
+            before.method->sample_set({before.generator, before.samples, before.seed}, before.parameters));
+  ao.set_least_samples(2);
+  EXPECT_NE(read(ao).sample_set(), before.sample_set());
+}
+
 TEST(BlurWeights, ReachTwoAndAHalfSigma) {
   const auto weights = gaussian_weights(1.5);
   ASSERT_EQ(weights.size(), 5U);  // 0 .. ceil(3.75)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -186,6 +187,54 @@ TEST(AoSampleSets, PoissonDisksKeepTheirDistanceAlsoAcrossTheSeam) {
     EXPECT_GT(poisson, 1.5 * uniform);
     // The densest packing has a distance of 1.07 of sqrt(4 / count); throwing darts reaches well over half of it.
     EXPECT_GT(nearest, 0.5 * std::sqrt(4.0 / count));
+  }
+}
+
+// Of a set on the disk, back in the square.
+std::vector<glm::dvec2> in_square(const std::vector<glm::vec4>& disk) {
+  std::vector<glm::dvec2> points;
+  for (const glm::vec4& p : disk)
+    points.push_back({2.0 * p.w * p.w - 1, std::atan2(static_cast<double>(p.y), static_cast<double>(p.x)) / M_PI});
+  return points;
+}
+
+// The first k of 64 keep the distance that Poisson disks of k keep. Sets as they are made come in rows, or at random.
+TEST_P(AoSamples, InSpreadOrderTheFirstFewFillTheSquare) {
+  for (const int k : {2, 4, 7, 16}) {
+    const auto first = [&](const std::vector<glm::vec4>& set) { return in_square({set.begin(), set.begin() + k}); };
+    double spread = 0, made = 0, poisson = 0;
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+      const SampleChoice choice{GetParam(), 64, seed};
+      auto set = disk_set(choice, false);
+      made += least_distance(first(set));
+      spread_prefixes(set, choice);
+      spread += least_distance(first(set));
+      poisson += least_distance(square_points({SampleGenerator::kPoissonDisk, k, seed}));
+    }
+    // 64 points to choose from cost the sixteenth a tenth of its distance.
+    EXPECT_GT(spread, 0.85 * poisson) << k;
+    EXPECT_LT(made, (GetParam() == SampleGenerator::kPoissonDisk ? 1 : 0.8) * poisson) << k;
+  }
+}
+
+TEST_P(AoSamples, InSpreadOrderAreTheSameSamplesAndPairsStayPairs) {
+  const auto sorted = [](std::vector<glm::vec4> samples) {
+    std::ranges::sort(samples, {}, [](glm::vec4 p) { return std::array{p.x, p.y, p.z, p.w}; });
+    return samples;
+  };
+  for (const int count : {1, 2, 9, 64}) {
+    const SampleChoice choice{GetParam(), count, 3};
+    for (const bool pairs : {false, true}) {
+      for (const auto& made : {shell_set(choice, 0.8, pairs), disk_set(choice, pairs), cosine_set(choice)}) {
+        auto ordered = made;
+        spread_prefixes(ordered, choice);
+        EXPECT_EQ(sorted(ordered), sorted(made)) << count;
+        EXPECT_TRUE(count < 64 || ordered != made);
+        if (count == 1 || glm::vec3(made[0]) != -glm::vec3(made[1])) continue;
+        for (std::size_t i = 0; i + 1 < ordered.size(); i += 2)
+          EXPECT_EQ(glm::vec3(ordered[i]), -glm::vec3(ordered[i + 1])) << count << ", " << i;
+      }
+    }
   }
 }
 
