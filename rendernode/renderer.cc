@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "calibration/guard_band.h"
 #include "proto/scene_numbers.h"
 #include "proto/state.h"
 #include "rendernode/gl/memory.h"
@@ -23,6 +24,11 @@ std::string hash_of_shared(const proto::State& state) {
   *shared.mutable_scene()->mutable_material() = state.scene().material();
   *shared.mutable_scene()->mutable_light() = state.scene().light();
   return content_hash(shared.SerializeAsString());
+}
+
+// Of what is drawn, 0: none.
+int guard_band_px(const RenderSettings& settings) {
+  return settings.ao.enabled ? even_guard_band_px(settings.ao.guard_band_px) : 0;
 }
 
 }  // namespace
@@ -57,28 +63,28 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   if (const Status numbers = check_numbers(state.scene()); !numbers) return numbers.error().within("scene");
   const bool first = !state_.has_value();
   const bool new_tables = first || settings.warp_level != settings_.warp_level;
-  const bool new_rule = new_tables || settings.subdivision_px != settings_.subdivision_px ||
+  const int band_px = guard_band_px(settings);
+  const bool new_band = first || new_tables || band_px != guard_band_px(settings_);
+  const bool new_rule = new_band || settings.subdivision_px != settings_.subdivision_px ||
                         settings.near_z_m != settings_.near_z_m || settings.far_z_m != settings_.far_z_m;
   const bool new_geometry = new_rule || !(roi == roi_) || !same_instances(state.scene(), state_->scene());
   const bool new_materials =
       first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
 
-  std::unique_ptr<const WarpTables> tables;
-  std::vector<std::string> table_warnings;
-  GpuModules gpu_modules;
+  std::unique_ptr<const DrawnModules> own, banded;
   if (new_tables) {
-    tables = std::make_unique<const WarpTables>(warp_tables(display_, modules_, settings.warp_level));
-    if (settings.warp_level == 0) {  // a level that was asked for may be as coarse as it is
-      LFD_TRY(table_warnings, warnings_of(*tables, modules_));
-    }
-    gpu_modules = upload_modules(display_, modules_, *tables);
-    LFD_TRY_STATUS(gl::memory_status("the tables of the modules' maps"));
+    LFD_TRY(own, draw_modules(display_, modules_, settings.warp_level, 0));
+  }
+  if (new_band && band_px > 0) {
+    LFD_TRY(banded, draw_modules(display_, modules_, settings.warp_level, band_px));
   }
   DepthLimits limits = limits_;
   std::unique_ptr<EdgeRule> rule;
   if (new_rule) {
+    const DrawnModules& largest = banded ? *banded : band_px > 0 ? *banded_ : own ? *own : *own_;
     limits = depth_limits(display_, settings);
-    rule = std::make_unique<EdgeRule>(display_, modules_, tables ? *tables : *tables_, limits, settings.subdivision_px);
+    if (band_px > 0) limits = widened_to(limits, largest.display);
+    rule = std::make_unique<EdgeRule>(largest.display, modules_, largest.tables, limits, settings.subdivision_px);
   }
   std::optional<PhysicalGeometry> geometry;
   if (new_geometry) {
@@ -100,12 +106,11 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
                                 [&](const auto& instance) { return instance.mesh() == mesh.first; });
   });
   if (rule) rule_ = std::move(rule);
-  if (tables) {
-    tables_ = std::move(tables);
-    table_warnings_ = std::move(table_warnings);
-    for (const std::string& warning : table_warnings_) log::warn("{}", warning);
-    gpu_modules_ = std::move(gpu_modules);
+  if (own) {
+    own_ = std::move(own);
+    for (const std::string& warning : own_->warnings) log::warn("{}", warning);
   }
+  if (new_band) banded_ = std::move(banded);
   limits_ = limits;
   if (geometry) {
     geometry_ = std::move(*geometry);
@@ -148,12 +153,16 @@ Status Renderer::draw(const FrameOptions& options) {
   if (!slot.reused) {
     const bool may_reuse = options.reuse && drawn_buffers_ == options.buffers && !drawn_inputs_.empty();
     slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
-                            options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_});
+                            options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_,
+                            banded_ ? &banded_->display : nullptr});
     const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
+    const DrawnModules& drawn = slot.plan.guard_band_px > 0 ? *banded_ : *own_;
+    if (targets_.size() != drawn.display.image) targets_ = Targets(drawn.display.image, targets_.layers());
     LFD_TRY_STATUS(passes_.submit(slot.plan, commands,
-                                  {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
+                                  {drawn.gpu, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
                                   targets_, slot.timers));
-    LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image));
+    LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image,
+                                       {slot.plan.guard_band_px, slot.plan.guard_band_px}));
     drawn_buffers_.reset();
     drawn_inputs_.clear();
     if (options.read_back) {
@@ -275,7 +284,7 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
   }
   if (const std::string why = why_nothing_is_seen(); !why.empty())
     report.add_warning("nothing of the scene is seen: " + why);
-  for (const std::string& warning : table_warnings_) report.add_warning(warning);
+  for (const std::string& warning : own_->warnings) report.add_warning(warning);
   for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
   if (geometry_.degenerate_triangles > 0) {
     report.add_warning(
