@@ -36,7 +36,7 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
     parameters += fmt::format("{}{} {:g}", i == 0 ? "" : ", ", ao.method->parameters[i].name, ao.parameters[i]);
   return fmt::format(
       "occlusion  {}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
-      "curve      a {:g}, b {:g}, c {:g}\nblur       {}\ntarget     {}\n",
+      "curve      a {:g}, b {:g}, c {:g}\nblur       {}\nguard band {} px\ntarget     {}\n",
       !ao.enabled          ? "off"
       : ao.half_resolution ? "on, half resolution"
                            : "on",
@@ -51,7 +51,7 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
       !ao.blur_enabled               ? "off"
       : ao.blur == AoBlur::kGaussian ? fmt::format("Gaussian, sigma {:g} px", ao.blur_sigma_px)
                                      : fmt::format("by geometry, {} taps a side", ao.blur_taps),
-      name_of(kTargetNames, message.target()));
+      ao.guard_band_px, name_of(kTargetNames, message.target()));
 }
 
 std::string status_table(const proto::Status& status) {

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/log.h"
+#include "calibration/guard_band.h"
 #include "proto/calibration_file.h"
 #include "proto/settings.h"
 #include "proto/wire/socket.h"
@@ -15,9 +16,11 @@ namespace {
 constexpr std::size_t kMostStateBytes =
     wire::kSmallMessages.max_part_bytes - (std::size_t{1} << 20);  // beside the rest
 
-// Settings that can be drawn with this region of interest.
-Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi) {
+// Settings that can be drawn with this region of interest and images of this size.
+Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi, ImageSize image) {
   LFD_TRY(const RenderSettings settings, read_settings(render));
+  if (const Status fits = check_guard_band(image, settings.ao.guard_band_px); !fits)
+    return fits.error().within("ao.guard_band_px");
   return check_radius(settings.ao, roi);
 }
 
@@ -25,6 +28,7 @@ Status check_together(const proto::RenderSettings& render, const RegionOfInteres
 
 Stage::Stage(const Deployment& deployment)
     : screen_(deployment.display.screen),
+      image_(deployment.display.image),
       display_bytes_(write_calibration(deployment.display).ByteSizeLong()),
       animation_frames_per_second_(deployment.animation_frames_per_second),
       wished_roi_(deployment.message.roi()),
@@ -43,7 +47,7 @@ Result<RegionOfInterest> Stage::complete(const proto::RegionOfInterest& wish, co
 
 Result<proto::Update> Stage::show(LoadedScene scene) {
   LFD_TRY(const RegionOfInterest roi, complete(wished_roi_, scene.data.scene));
-  LFD_TRY_STATUS(check_together(render_, roi));
+  LFD_TRY_STATUS(check_together(render_, roi, image_));
   const std::size_t bytes = scene.data.scene.ByteSizeLong() + display_bytes_;
   if (bytes > kMostStateBytes) {
     return Error(fmt::format("{} MiB of instances, materials and measured maps; nodes are sent at most {} MiB at once",
@@ -61,7 +65,7 @@ Result<proto::Update> Stage::show(LoadedScene scene) {
 Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
   if (!has_scene()) return Error("no scene is there yet");
   LFD_TRY(const RegionOfInterest roi, complete(wish, scene_->data.scene));
-  LFD_TRY_STATUS(check_together(render_, roi));
+  LFD_TRY_STATUS(check_together(render_, roi, image_));
   roi_ = roi;
   wished_roi_ = wish;
   proto::Update update;
@@ -71,7 +75,7 @@ Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
 
 Result<proto::Update> Stage::set_render(const proto::RenderSettings& render) {
   if (!has_scene()) return Error("no scene is there yet");
-  LFD_TRY_STATUS(check_together(render, roi_));
+  LFD_TRY_STATUS(check_together(render, roi_, image_));
   render_ = render;
   proto::Update update;
   *update.mutable_render() = render_;

@@ -44,6 +44,7 @@ class Stage {
   Result<RegionOfInterest> complete(const proto::RegionOfInterest& wish, const proto::Scene& scene) const;
 
   ScreenSize screen_;
+  ImageSize image_;
   std::size_t display_bytes_;  // of the display in a message
   double animation_frames_per_second_;
   proto::RegionOfInterest wished_roi_;

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/log.h"
+#include "calibration/guard_band.h"
 #include "proto/calibration_file.h"
 #include "proto/endpoint.h"
 #include "proto/text_file.h"
@@ -181,6 +182,10 @@ Check read_drawing(Deployment& deployment) {
     return Fault{error.message(), error};
   }
   deployment.render = *render;
+  if (const Status fits = check_guard_band(deployment.display.image, render->ao.guard_band_px); !fits) {
+    const std::string road = "render: ao.guard_band_px";
+    return Fault{road, fits.error().within(road)};
+  }
   const ScreenSize screen = deployment.display.screen;
   const auto roi = complete_roi(m.roi(), {-1, -1, -1}, {1, 1, 1}, screen.width_m, screen.height_m);
   if (!roi) return Fault{roi.error().message(), roi.error()};

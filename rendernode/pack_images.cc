@@ -11,6 +11,9 @@ namespace {
 
 using Pixel = std::array<float, 4>;
 
+// A surface that viewers see; others are there for ambient occlusion alone (surface_gbuffer.frag).
+bool has_seen_surface(const Pixel& pixel) { return pixel[3] == 1; }
+
 // Applies `convert` to each pixel of type In.
 template <class In, class Convert>
 std::shared_ptr<const std::string> converted(std::span<const std::byte> pixels, Convert convert) {
@@ -34,7 +37,7 @@ std::shared_ptr<const std::string> pack_color(std::span<const std::byte> pixels)
 std::shared_ptr<const std::string> pack_position(std::span<const std::byte> pixels, const RegionOfInterest& roi) {
   const Vector3<World> shift = roi.world_centre - position_origin(roi);
   return converted<Pixel>(pixels, [&](const Pixel& p) -> Pixel {
-    if (p[3] == 0) return {};
+    if (!has_seen_surface(p)) return {};
     return {static_cast<float>(p[0] + shift.x), static_cast<float>(p[1] + shift.y), static_cast<float>(p[2] + shift.z),
             1};
   });
@@ -44,7 +47,7 @@ std::shared_ptr<const std::string> pack_depth(std::span<const std::byte> pixels,
   const glm::dmat3 m = physical_from_world(roi).linear;
   const double offset = roi.physical_centre.z;
   return converted<Pixel>(pixels, [&](const Pixel& p) -> Pixel {
-    if (p[3] == 0) return {};
+    if (!has_seen_surface(p)) return {};
     const float z = static_cast<float>(m[0][2] * p[0] + m[1][2] * p[1] + m[2][2] * p[2] + offset);
     return {z, z, z, 1};
   });
@@ -74,7 +77,7 @@ std::shared_ptr<const std::string> pack_image(proto::BufferKind kind, std::span<
       if (in.ao_pass) return pack_ao(pixels, in.ao);
       return converted<Pixel>(pixels, [](const Pixel& p) -> Pixel { return {0, 0, 0, p[3]}; });
     default:
-      return converted<Pixel>(pixels, [](const Pixel& p) { return p; });
+      return converted<Pixel>(pixels, [](const Pixel& p) { return has_seen_surface(p) ? p : Pixel(); });
   }
 }
 

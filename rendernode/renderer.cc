@@ -6,11 +6,10 @@
 
 #include "base/hash.h"
 #include "base/log.h"
-#include "base/version.h"
+#include "calibration/guard_band.h"
 #include "proto/scene_numbers.h"
 #include "proto/state.h"
 #include "rendernode/gl/memory.h"
-#include "rendernode/pack_images.h"
 
 namespace lfd {
 namespace {
@@ -23,6 +22,11 @@ std::string hash_of_shared(const proto::State& state) {
   *shared.mutable_scene()->mutable_material() = state.scene().material();
   *shared.mutable_scene()->mutable_light() = state.scene().light();
   return content_hash(shared.SerializeAsString());
+}
+
+// Of what is drawn, 0: none.
+int guard_band_px(const RenderSettings& settings) {
+  return settings.ao.enabled ? even_guard_band_px(settings.ao.guard_band_px) : 0;
 }
 
 }  // namespace
@@ -57,28 +61,28 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   if (const Status numbers = check_numbers(state.scene()); !numbers) return numbers.error().within("scene");
   const bool first = !state_.has_value();
   const bool new_tables = first || settings.warp_level != settings_.warp_level;
-  const bool new_rule = new_tables || settings.subdivision_px != settings_.subdivision_px ||
+  const int band_px = guard_band_px(settings);
+  const bool new_band = first || new_tables || band_px != guard_band_px(settings_);
+  const bool new_rule = new_band || settings.subdivision_px != settings_.subdivision_px ||
                         settings.near_z_m != settings_.near_z_m || settings.far_z_m != settings_.far_z_m;
   const bool new_geometry = new_rule || !(roi == roi_) || !same_instances(state.scene(), state_->scene());
   const bool new_materials =
       first || settings.unlit != settings_.unlit || !same_materials(state.scene(), state_->scene());
 
-  std::unique_ptr<const WarpTables> tables;
-  std::vector<std::string> table_warnings;
-  GpuModules gpu_modules;
+  std::unique_ptr<const DrawnModules> own, banded;
   if (new_tables) {
-    tables = std::make_unique<const WarpTables>(warp_tables(display_, modules_, settings.warp_level));
-    if (settings.warp_level == 0) {  // a level that was asked for may be as coarse as it is
-      LFD_TRY(table_warnings, warnings_of(*tables, modules_));
-    }
-    gpu_modules = upload_modules(display_, modules_, *tables);
-    LFD_TRY_STATUS(gl::memory_status("the tables of the modules' maps"));
+    LFD_TRY(own, draw_modules(display_, modules_, settings.warp_level, 0));
+  }
+  if (new_band && band_px > 0) {
+    LFD_TRY(banded, draw_modules(display_, modules_, settings.warp_level, band_px));
   }
   DepthLimits limits = limits_;
   std::unique_ptr<EdgeRule> rule;
   if (new_rule) {
+    const DrawnModules& largest = banded ? *banded : band_px > 0 ? *banded_ : own ? *own : *own_;
     limits = depth_limits(display_, settings);
-    rule = std::make_unique<EdgeRule>(display_, modules_, tables ? *tables : *tables_, limits, settings.subdivision_px);
+    if (band_px > 0) limits = widened_to(limits, largest.display);
+    rule = std::make_unique<EdgeRule>(largest.display, modules_, largest.tables, limits, settings.subdivision_px);
   }
   std::optional<PhysicalGeometry> geometry;
   if (new_geometry) {
@@ -100,12 +104,11 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
                                 [&](const auto& instance) { return instance.mesh() == mesh.first; });
   });
   if (rule) rule_ = std::move(rule);
-  if (tables) {
-    tables_ = std::move(tables);
-    table_warnings_ = std::move(table_warnings);
-    for (const std::string& warning : table_warnings_) log::warn("{}", warning);
-    gpu_modules_ = std::move(gpu_modules);
+  if (own) {
+    own_ = std::move(own);
+    for (const std::string& warning : own_->warnings) log::warn("{}", warning);
   }
+  if (new_band) banded_ = std::move(banded);
   limits_ = limits;
   if (geometry) {
     geometry_ = std::move(*geometry);
@@ -148,7 +151,8 @@ Status Renderer::draw(const FrameOptions& options) {
   slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;
   if (!slot.reused) {
     LFD_TRY(slot.plan, submit(options, slot.timers));
-    LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image));
+    LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image,
+                                       {slot.plan.guard_band_px, slot.plan.guard_band_px}));
     drawn_buffers_.reset();
     drawn_inputs_.clear();
     if (options.read_back) {
@@ -166,14 +170,17 @@ Status Renderer::draw(const FrameOptions& options) {
 FramePlan Renderer::plan(const FrameOptions& options) const {
   const bool may_reuse = options.reuse && drawn_buffers_ == options.buffers && !drawn_inputs_.empty();
   return plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
-                     options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_});
+                     options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_,
+                     banded_ ? &banded_->display : nullptr});
 }
 
 Result<FramePlan> Renderer::submit(const FrameOptions& options, PassTimers& timers) {
   FramePlan made = plan(options);
   const CommandList commands = make_commands(made, geometry_.items, gpu_materials_.facts, options.time_modules);
+  const DrawnModules& drawn = made.guard_band_px > 0 ? *banded_ : *own_;
+  if (targets_.size() != drawn.display.image) targets_ = Targets(drawn.display.image, targets_.layers());
   LFD_TRY_STATUS(passes_.submit(made, commands,
-                                {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
+                                {drawn.gpu, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
                                 targets_, timers));
   return made;
 }
@@ -206,92 +213,6 @@ FrameResult Renderer::collect() {
   readback->set_cpu_ms(milliseconds(Clock::now() - start));
   --under_way_;
   return result;
-}
-
-std::vector<ReadbackItem> Renderer::wanted(const Slot& slot) const {
-  std::vector<ReadbackItem> items;
-  for (const auto layer : slot.plan.active_layers) {
-    items.push_back({layer, proto::COLOR, targets_.color(slot.plan), GL_RGBA, GL_UNSIGNED_BYTE, 4});
-    const BufferSet& asked = slot.options.buffers;
-    if (asked.has(proto::POSITION))
-      items.push_back({layer, proto::POSITION, targets_.position(), GL_RGBA, GL_FLOAT, 16});
-    if (asked.has(proto::NORMAL)) items.push_back({layer, proto::NORMAL, targets_.normal(), GL_RGBA, GL_FLOAT, 16});
-    if (asked.has(proto::DEPTH)) items.push_back({layer, proto::DEPTH, targets_.position(), GL_RGBA, GL_FLOAT, 16});
-    if (!asked.has(proto::AO)) continue;
-    // Without an ambient-occlusion pass every surface is open; the positions tell where one is.
-    if (slot.plan.ao) {
-      items.push_back({layer, proto::AO, targets_.ao(0), GL_RED, GL_FLOAT, 4});
-    } else {
-      items.push_back({layer, proto::AO, targets_.position(), GL_RGBA, GL_FLOAT, 16});
-    }
-  }
-  return items;
-}
-
-std::vector<ModuleImage> Renderer::images_of(const Slot& slot) const {
-  std::vector<ModuleImage> images;
-  const PackInputs pack{slot.roi, slot.ao, slot.plan.ao};
-  for (std::size_t i = 0; i < slot.readback.items().size(); ++i) {
-    const auto& item = slot.readback.items()[i];
-    images.push_back(
-        {modules_[item.layer], item.kind, display_.image, false, pack_image(item.kind, slot.readback.bytes(i), pack)});
-  }
-  append_unchanged(slot, images);
-  append_empty(slot, images);
-  return images;
-}
-
-void Renderer::append_unchanged(const Slot& slot, std::vector<ModuleImage>& images) const {
-  for (const auto layer : slot.plan.unchanged_layers) {
-    std::ranges::copy_if(last_images_, std::back_inserter(images),
-                         [&](const ModuleImage& image) { return image.module == modules_[layer]; });
-  }
-}
-
-void Renderer::append_empty(const Slot& slot, std::vector<ModuleImage>& images) const {
-  for (std::uint32_t layer = 0; layer < modules_.size(); ++layer) {
-    if (std::ranges::binary_search(slot.plan.active_layers, layer) ||
-        std::ranges::binary_search(slot.plan.unchanged_layers, layer))
-      continue;
-    for (const auto kind : {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}) {
-      if (kind != proto::COLOR && !slot.options.buffers.has(kind)) continue;
-      images.push_back({modules_[layer], kind, display_.image, true, nullptr});
-    }
-  }
-}
-
-void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
-  report.set_renderer(description_);
-  report.set_version(kVersion);
-  report.set_triangles(geometry_.planes.size());
-  report.set_occlusion_choice(occlusion_choice_);
-  auto* geometry = report.add_pass();
-  geometry->set_pass("geometry");
-  geometry->set_cpu_ms(slot.geometry_ms);
-  if (slot.reused) {
-    auto* left = report.add_left_out();
-    left->set_what("module");
-    left->set_which("all");
-    left->set_why("inputs unchanged since the last frame");
-    left->set_count(modules_.size());
-    return;
-  }
-  for (const auto& timed : slot.timers.collect()) {
-    auto* pass = report.add_pass();
-    pass->set_pass(timed.pass);
-    pass->set_gpu_ms(timed.gpu_ms);
-    for (const auto layer : timed.layers) {
-      if (slot.options.time_modules) pass->add_module(modules_[layer]);
-    }
-  }
-  if (const std::string why = why_nothing_is_seen(); !why.empty())
-    report.add_warning("nothing of the scene is seen: " + why);
-  for (const std::string& warning : table_warnings_) report.add_warning(warning);
-  for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
-  if (geometry_.degenerate_triangles > 0) {
-    report.add_warning(
-        fmt::format("{} triangles without an area, or not finite, are not drawn", geometry_.degenerate_triangles));
-  }
 }
 
 }  // namespace lfd

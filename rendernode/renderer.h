@@ -10,6 +10,7 @@
 
 #include "proto/scene_data.h"
 #include "proto/settings.h"
+#include "rendernode/drawn_modules.h"
 #include "rendernode/gl/context.h"
 #include "rendernode/passes/frame_passes.h"
 #include "rendernode/passes/readback.h"
@@ -67,7 +68,7 @@ class Renderer {
   const std::string& description() const { return description_; }
   const RegionOfInterest& roi() const { return roi_; }
   // The modules' maps as the GPU has them; there is a state.
-  const WarpTables& tables() const { return *tables_; }
+  const WarpTables& tables() const { return own_->tables; }
 
  private:
   // One frame under way.
@@ -106,9 +107,8 @@ class Renderer {
   std::vector<std::uint32_t> modules_;
   std::string description_;
   bool is_software_;
-  std::unique_ptr<const WarpTables> tables_;  // on the heap: rule_ refers to it
-  std::vector<std::string> table_warnings_;
-  GpuModules gpu_modules_;
+  // As they are, and with the guard band that the settings ask for: null without one. rule_ refers to the larger ones.
+  std::unique_ptr<const DrawnModules> own_, banded_;
   FramePasses passes_;
   Targets targets_;
 

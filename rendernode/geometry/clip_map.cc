@@ -7,14 +7,6 @@
 
 namespace lfd {
 
-glm::dmat3 ideal_homography(ScreenSize screen, ImageSize image) {
-  glm::dmat3 h{0.0};
-  h[0][0] = image.width / screen.width_m;
-  h[1][1] = -image.height / screen.height_m;
-  h[2] = {0.5 * image.width, 0.5 * image.height, 1};
-  return h;
-}
-
 ClipMap::ClipMap(const DisplayCalibration& display, const ModuleCalibration& module, const WarpTable* table)
     : display_(&display), module_(&module), table_(table) {
   LFD_CHECK((table != nullptr) == std::holds_alternative<GridMap>(module.map), "a grid, and nothing else, has a table");

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "calibration/display.h"
+#include "calibration/maps/ideal_homography.h"
 #include "rendernode/geometry/warp_table.h"
 
 namespace lfd {
@@ -40,8 +41,5 @@ class ClipMap {
   glm::dmat3 rotation_{1.0};    // pinholes: module_from_physical
   double limit_ = 0;            // pinholes: largest radius that can be inverted
 };
-
-// 3x3 homography of an ideal map.
-glm::dmat3 ideal_homography(ScreenSize screen, ImageSize image);
 
 }  // namespace lfd

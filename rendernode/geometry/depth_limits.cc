@@ -83,4 +83,9 @@ DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings
   return limits;
 }
 
+DepthLimits widened_to(DepthLimits limits, const DisplayCalibration& larger) {
+  bound_space(larger, limits);
+  return limits;
+}
+
 }  // namespace lfd

@@ -24,4 +24,7 @@ struct DepthLimits {
 // the screen has a singularity. Defaults: settings.proto.
 DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings& settings);
 
+// The same limits in depth, the box around all that `larger` can show between them: a display with a guard band.
+DepthLimits widened_to(DepthLimits limits, const DisplayCalibration& larger);
+
 }  // namespace lfd

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "rendernode/passes/scissor.h"
 
 namespace lfd {
 namespace {
@@ -73,7 +74,7 @@ void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in
   frame_params_ = gl::make_buffer(std::span(&params, 1));
   const AoSettings& ao = in.settings.ao;
   const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536},
-                                  {ao.least_samples, ao.guard_band_px, 0, 0}};
+                                   {ao.least_samples, in.modules.guard_band_px, 0, 0}};
   ao_params_ = gl::make_buffer(std::span(&ao_params, 1));
   std::vector<glm::vec4> samples = ao.sample_set();
   samples.resize(AO_MOST_SAMPLES);
@@ -115,7 +116,7 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
   glDisable(GL_DEPTH_TEST);
   if (plan.pyramid_levels > 0) LFD_TRY_STATUS(pyramid(plan, commands, targets, timers));
   if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(plan, commands, inputs, targets, timers));
-  if (plan.blur) LFD_TRY_STATUS(blur(commands, inputs.settings.ao, targets, timers));
+  if (plan.blur) LFD_TRY_STATUS(blur(plan, commands, inputs.settings.ao, targets, timers));
   if (plan.post) LFD_TRY_STATUS(post(plan, commands, inputs, targets, timers));
   return {};
 }
@@ -124,6 +125,7 @@ Status FramePasses::draw_surfaces(const char* fragment, gl::Flags flags, const B
   glBindVertexArray(surface_array_.name());
   if (in.modules.has_tables()) flags.emplace_back("PIXEL_TABLE");
   if (in.modules.warp_tables) flags.emplace_back("WARP_TABLE");
+  if (in.modules.guard_band_px > 0) flags.emplace_back("GUARD_BAND");
   if (in.settings.interpolated_position) flags.emplace_back("INTERPOLATED");
   const bool tessellates = in.settings.tessellation_px > 0;
   std::vector<std::string> stages{"passes/surface.vert", fragment};
@@ -222,6 +224,7 @@ Status FramePasses::post(const FramePlan& plan, const CommandList& commands, con
   if (plan.position) bind_texture(UNIT_POSITION, targets.position());
   if (plan.normal) bind_texture(UNIT_NORMAL, targets.normal());
   if (plan.ao) bind_texture(UNIT_AO, targets.ao(0));
+  const Scissor own_image(plan.guard_band_px, targets.size());
   draw_layers(commands, "post", timers);
   return {};
 }

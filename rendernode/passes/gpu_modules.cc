@@ -118,7 +118,7 @@ std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCa
 }
 
 GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules,
-                          const WarpTables& tables) {
+                          const WarpTables& tables, GuardBand band) {
   std::vector<shared::ModuleParams> params;
   std::vector<std::uint32_t> with_pixels;
   std::vector<const WarpTable*> warps;
@@ -136,9 +136,12 @@ GpuModules upload_modules(const DisplayCalibration& display, const std::vector<s
     }
     params.push_back(module_params(display, module, warp, layers));
     params.back().tangential.z = static_cast<float>(modules[i]);  // noise is the module's own, whichever node draws it
+    params.back().tangential.w = static_cast<float>(band.px);
+    params.back().surface.z = static_cast<float>(band.screen.width_m);
+    params.back().surface.w = static_cast<float>(band.screen.height_m);
   }
   params.resize(MODULES_PER_NODE);
-  GpuModules gpu{gl::make_buffer(params), {}, {}, upload_colors(display, modules)};
+  GpuModules gpu{gl::make_buffer(params), {}, {}, upload_colors(display, modules), band.px};
   if (!with_pixels.empty()) {
     gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(with_pixels.size()));
   }

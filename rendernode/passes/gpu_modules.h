@@ -25,15 +25,23 @@ shared::ModuleParams module_params(const DisplayCalibration& display, const Modu
 // none. Solved in double precision; the rows are shared among the machine's cores.
 std::vector<float> pixel_table(const DisplayCalibration& display, const ModuleCalibration& module);
 
+// What a guard band leaves of what the images without it are.
+struct GuardBand {
+  int px = 0;         // on every side; 0: there is none
+  ScreenSize screen;  // the display's own, without the band
+};
+
 struct GpuModules {
   gl::Buffer params;         // array of MODULES_PER_NODE ModuleParams, one per layer
   gl::Texture pixel_tables;  // RG32F array: screen points of pixels; empty where no module needs one
   gl::Texture warp_tables;   // RG32F array: residuals of WarpTable; likewise
   std::optional<GpuColors> colors;
+  int guard_band_px = 0;
   bool has_tables() const { return static_cast<bool>(pixel_tables); }
 };
 
+// display: with the guard band.
 GpuModules upload_modules(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules,
-                          const WarpTables& tables);
+                          const WarpTables& tables, GuardBand band);
 
 }  // namespace lfd

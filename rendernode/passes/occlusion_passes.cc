@@ -4,11 +4,18 @@
 #include "base/log.h"
 #include "rendernode/passes/blur_weights.h"
 #include "rendernode/passes/frame_passes.h"
+#include "rendernode/passes/scissor.h"
 
 namespace lfd {
 namespace {
 
 constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;  // uniform locations of both blurs
+
+// How far a blur looks to each side, pixels.
+int reach_of_blur(const AoSettings& ao) {
+  if (!ao.blur_enabled) return 0;
+  return ao.blur == AoBlur::kGaussian ? static_cast<int>(gaussian_weights(ao.blur_sigma_px).size()) - 1 : ao.blur_taps;
+}
 
 }  // namespace
 
@@ -37,6 +44,7 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
                                      {method.normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},
+                                     {plan.guard_band_px > 0, "GUARD_BAND"},
                                      {method.pyramid != occlusion::Pyramid::kNone, "PYRAMID"}}) {
     if (is_set) flags.emplace_back(flag);
   }
@@ -50,23 +58,30 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   for (int i = 0; i < plan.pyramid_levels; ++i)
     glBindTextureUnit(UNIT_PYRAMID + static_cast<GLuint>(i),
                       targets.pyramid().levels()[static_cast<std::size_t>(i)].position.name());
-  draw_layers(commands, "ao", timers);
+  {
+    const int reach = reach_of_blur(inputs.settings.ao);
+    const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach}, plan.upsample);
+    draw_layers(commands, "ao", timers);
+  }
   glViewport(0, 0, targets.size().width, targets.size().height);
-  return plan.upsample ? upsample(commands, targets, timers) : Status();
+  return plan.upsample ? upsample(plan, commands, inputs.settings.ao, targets, timers) : Status();
 }
 
-Status FramePasses::upsample(const CommandList& commands, const Targets& targets, PassTimers& timers) {
+Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands, const AoSettings& ao,
+                             const Targets& targets, PassTimers& timers) {
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, {}));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
   glBindTextureUnit(UNIT_AO, targets.half_ao());
+  const int reach = reach_of_blur(ao);
+  const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach});
   draw_layers(commands, "ao_upsample", timers);
   return {};
 }
 
-Status FramePasses::blur(const CommandList& commands, const AoSettings& ao, const Targets& targets,
-                         PassTimers& timers) {
+Status FramePasses::blur(const FramePlan& plan, const CommandList& commands, const AoSettings& ao,
+                         const Targets& targets, PassTimers& timers) {
   const bool is_gaussian = ao.blur == AoBlur::kGaussian;
   const char* fragment = is_gaussian ? "passes/blur.frag" : "passes/blur_geometry.frag";
   LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, {}));
@@ -84,6 +99,7 @@ Status FramePasses::blur(const CommandList& commands, const AoSettings& ao, cons
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(1 - i));
     glBindTextureUnit(UNIT_AO, targets.ao(i));
     glUniform2i(kBlurDirection, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
+    const Scissor near_own_image(plan.guard_band_px, targets.size(), {0, i == 0 ? reach_of_blur(ao) : 0});
     draw_layers(commands, i == 0 ? "blur_horizontal" : "blur_vertical", timers);
   }
   return {};

@@ -14,7 +14,7 @@ Readback::~Readback() {
   if (fence_ != nullptr) glDeleteSync(fence_);
 }
 
-Status Readback::start(std::vector<ReadbackItem> items, ImageSize size) {
+Status Readback::start(std::vector<ReadbackItem> items, ImageSize size, PixelIndex first) {
   items_ = std::move(items);
   pixels_ = static_cast<std::size_t>(size.width) * size.height;
   offsets_.clear();
@@ -37,8 +37,8 @@ Status Readback::start(std::vector<ReadbackItem> items, ImageSize size) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.name());
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const auto& item = items_[i];
-    glGetTextureSubImage(item.texture, 0, 0, 0, static_cast<GLint>(item.layer), size.width, size.height, 1, item.format,
-                         item.type, static_cast<GLsizei>(pixels_ * item.bytes_per_pixel),
+    glGetTextureSubImage(item.texture, 0, first.column, first.row, static_cast<GLint>(item.layer), size.width,
+                         size.height, 1, item.format, item.type, static_cast<GLsizei>(pixels_ * item.bytes_per_pixel),
                          reinterpret_cast<void*>(offsets_[i]));
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

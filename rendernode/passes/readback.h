@@ -28,9 +28,9 @@ class Readback {
   Readback(const Readback&) = delete;
   Readback& operator=(const Readback&) = delete;
 
-  // Submits the copies and a fence. The item's bytes are valid from finished() until the next start().
-  // Error: no memory for the buffer.
-  Status start(std::vector<ReadbackItem> items, ImageSize size);
+  // Submits the copies and a fence, of `size` pixels from `first` on. The item's bytes are valid from finished() until
+  // the next start(). Error: no memory for the buffer.
+  Status start(std::vector<ReadbackItem> items, ImageSize size, PixelIndex first = {});
 
   // Whether the GPU has done everything up to and with the copies; waits at most so long.
   bool finished(Clock::duration at_most);

@@ -34,21 +34,42 @@ class Planner {
     plan_.left_out.push_back(std::move(left));
   }
 
+  bool is_lit() const {
+    return !in_.settings.unlit && std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
+      return !(*in_.materials)[item.material].unlit;
+    });
+  }
+
+  bool reads_ao() const { return is_lit() || in_.buffers.has(proto::AO); }
+
+  // A guard band serves ambient occlusion that is read, and nothing else: even where everything is planned.
+  bool has_guard_band() const { return in_.banded != nullptr && in_.settings.ao.enabled && reads_ao(); }
+
+  // The items that a module draws; none where all that it sees of them lies in the guard band.
+  std::vector<std::uint32_t> items_of(const ModuleCalibration& module, const ModuleCalibration* banded) const {
+    std::vector<std::uint32_t> drawn;
+    bool seen = everything_;
+    for (std::uint32_t i = 0; i < in_.items->size(); ++i) {
+      const GeometryItem& item = (*in_.items)[i];
+      const bool is_seen = everything_ || may_be_seen(*in_.display, module, item.low, item.high);
+      seen = seen || is_seen;
+      if (is_seen || (banded != nullptr && may_be_seen(*in_.banded, *banded, item.low, item.high))) drawn.push_back(i);
+    }
+    return seen ? drawn : std::vector<std::uint32_t>();
+  }
+
   void choose_draws() {
+    const bool has_band = has_guard_band();
     std::map<std::pair<int, bool>, DrawGroup> groups;
     plan_.inputs.resize(in_.modules->size());
     for (std::uint32_t layer = 0; layer < in_.modules->size(); ++layer) {
       const std::uint32_t number = (*in_.modules)[layer];
       const ModuleCalibration& module = in_.display->modules[number];
-      std::uint64_t unseen = 0;
-      bool seen = false;
-      for (std::uint32_t i = 0; i < in_.items->size(); ++i) {
+      const auto drawn = items_of(module, has_band ? &in_.banded->modules[number] : nullptr);
+      const bool seen = !drawn.empty();
+      const std::uint64_t unseen = in_.items->size() - drawn.size();
+      for (const std::uint32_t i : drawn) {
         const GeometryItem& item = (*in_.items)[i];
-        if (!everything_ && !may_be_seen(*in_.display, module, item.low, item.high)) {
-          ++unseen;
-          continue;
-        }
-        seen = true;
         plan_.inputs[layer] += item.content;
         const MaterialFacts& material = (*in_.materials)[item.material];
         DrawGroup& group = groups[{material.texture_group, material.alpha_mask}];
@@ -76,21 +97,19 @@ class Planner {
 
   void choose_passes() {
     const bool any = any_seen_;
-    const bool lit = !in_.settings.unlit && std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
-      return !(*in_.materials)[item.material].unlit;
-    });
+    const bool lit = is_lit();
     const bool textured = std::ranges::any_of(
         *in_.items, [&](const GeometryItem& item) { return (*in_.materials)[item.material].texture_group >= 0; });
     if (!textured && any) leave_out("texture", "base colour", "no material has one");
 
     const bool ao_asked = in_.settings.ao.enabled;
-    const bool ao_read = (lit && !in_.settings.unlit) || in_.buffers.has(proto::AO);
-    plan_.ao = ao_asked && (everything_ || (any && ao_read));
+    plan_.ao = ao_asked && (everything_ || (any && reads_ao()));
     if (!ao_asked) {
       leave_out("pass", "ao", "switched off");
     } else if (!plan_.ao) {
       leave_out("pass", "ao", any ? "every surface is unlit" : "no module sees geometry");
     }
+    if (in_.settings.ao.guard_band_px > 0) choose_guard_band();
     plan_.upsample = plan_.ao && in_.settings.ao.half_resolution;
     plan_.blur = plan_.ao && in_.settings.ao.blur_enabled;
     if (!plan_.blur) leave_out("pass", "blur", plan_.ao ? "switched off" : "there is no ambient occlusion to blur");
@@ -114,10 +133,22 @@ class Planner {
     choose_prepass(any, textured);
   }
 
+  void choose_guard_band() {
+    if (plan_.ao && has_guard_band()) {
+      plan_.guard_band_px = (in_.banded->image.width - in_.display->image.width) / 2;
+    } else {
+      leave_out("target", "guard band",
+                !in_.settings.ao.enabled ? "there is no ambient occlusion that needs it"
+                : !any_seen_             ? "no module sees geometry"
+                                         : "nothing reads ambient occlusion");
+    }
+  }
+
   // What a layer's picture shows beside its items is the same for all layers.
   void hash_inputs() {
-    const std::string passes = fmt::format("{}{}{}{}{}{}{}{}", plan_.upsample, plan_.pyramid_levels, plan_.position,
-                                           plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color);
+    const std::string passes =
+        fmt::format("{}{}{}{}{}{}{}{} {}", plan_.upsample, plan_.pyramid_levels, plan_.position, plan_.normal, plan_.ao,
+                    plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
     for (std::string& items : plan_.inputs)
       items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
   }

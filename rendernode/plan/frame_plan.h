@@ -52,6 +52,7 @@ struct PlanInputs {
   std::string shared = {};
   const std::vector<std::string>* drawn = nullptr;  // FramePlan::inputs of the images in hand; null: there are none
   bool is_software = false;                         // a rasteriser on the CPU draws
+  const DisplayCalibration* banded = nullptr;       // the display with a guard band; null: there is none
 };
 
 // Draws that one shader variant with one set of textures can make in one submission.
@@ -74,7 +75,8 @@ struct FramePlan {
   bool upsample = false;   // ambient occlusion is of half the resolution
   int pyramid_levels = 0;  // of positions, beside the full picture; 0: the method reads none
   int pyramid_factor = 0;  // how many times smaller each is than the one before
-  bool color = false;  // the post pass corrects colours: a module of the node has a colour calibration
+  int guard_band_px = 0;   // geometry is drawn so far beside the images, for ambient occlusion
+  bool color = false;      // the post pass corrects colours: a module of the node has a colour calibration
   std::vector<proto::LeftOut> left_out;
 };
 

@@ -46,8 +46,8 @@ ivec2 own_pixel() {
 }
 vec2 own_place() { return vec2(own_pixel()) + 0.5; }
 
-// Three numbers in [0, 1) of this pixel of this module.
-vec3 noise() { return noise_of_pixel(uvec2(own_pixel()), uint(modules[layer].tangential.z), uint(ao.radii.w)); }
+// Three numbers in [0, 1) of this pixel of this module, whatever its guard band.
+vec3 noise() { return noise_of_pixel(uvec2(own_pixel() - int(ao.options.y)), uint(modules[layer].tangential.z), uint(ao.radii.w)); }
 
 // physical point of a world point counted from the ROI centre
 vec3 physical_from_world(vec3 p) {
@@ -79,7 +79,7 @@ int paired_count(Spot spot) {
   return min((count_at(spot, all) + 1) / 2 * 2, all);
 }
 
-// Stored position of a pixel; w 0 beside the image and where there is no surface.
+// Stored position of a pixel; w 0 beside the image and where there is no surface, 0.5 where there is one that no viewer sees.
 vec4 surface_of(ivec2 pixel) {
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(positions, 0).xy))) return vec4(0.0);
   return texelFetch(positions, ivec3(pixel, layer), 0);
@@ -98,17 +98,26 @@ vec4 surface_of_level(int level, ivec2 pixel) {
 }
 #endif
 
+// Stored position of a texel; w 1 where there is a surface, seen or not.
+vec4 stored(ivec3 at) {
+  vec4 p = texelFetch(positions, at, 0);
+#ifdef GUARD_BAND
+  p.w = ceil(p.w);
+#endif
+  return p;
+}
+
 // Position stored at a point of the image: on the surface through four pixels where all of them have one, else that of the pixel it
 // lies in. A sample of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
 vec4 surface_at(vec2 pixel) {
   ivec2 most = textureSize(positions, 0).xy - 2;
-  vec4 nearest = texelFetch(positions, ivec3(pixel, layer), 0);
+  vec4 nearest = stored(ivec3(pixel, layer));
   if (any(lessThan(most, ivec2(0)))) return nearest;
   ivec2 first = clamp(ivec2(floor(pixel - 0.5)), ivec2(0), most);  // at the border the surface goes on straight for half a pixel
   vec2 share = pixel - 0.5 - vec2(first);
   ivec3 at = ivec3(first, layer);
-  vec4 above = mix(texelFetch(positions, at, 0), texelFetch(positions, at + ivec3(1, 0, 0), 0), share.x);
-  vec4 below = mix(texelFetch(positions, at + ivec3(0, 1, 0), 0), texelFetch(positions, at + ivec3(1, 1, 0), 0), share.x);
+  vec4 above = mix(stored(at), stored(at + ivec3(1, 0, 0)), share.x);
+  vec4 below = mix(stored(at + ivec3(0, 1, 0)), stored(at + ivec3(1, 1, 0)), share.x);
   vec4 surface = mix(above, below, share.y);
   return abs(surface.w - 1.0) < 1e-4 ? surface : nearest;
 }
@@ -162,7 +171,7 @@ void main() {
   ivec3 at = ivec3(own_pixel(), layer);
   vec4 p = texelFetch(positions, at, 0);
   out_hidden = -1.0;
-  if (p.w == 0.0) return;
+  if (p.w < 1.0) return;
   Spot spot = Spot(modules[layer], p.xyz, vec3(0.0));
 #ifdef NORMAL
   spot.normal = normalize(texelFetch(normals, at, 0).xyz);

@@ -20,7 +20,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(half_ao, 0).xy - 1, full = textureSize(positions, 0).xy;
   vec4 p = texelFetch(positions, ivec3(pixel, layer), 0);
   out_ao = -1.0;
-  if (p.w == 0.0) return;
+  if (p.w < 1.0) return;
   vec3 n = normalize(texelFetch(normals, ivec3(pixel, layer), 0).xyz);
   vec2 place = 0.5 * vec2(pixel);  // samples lie at pixels 2i
   ivec2 first = ivec2(floor(place));

@@ -16,7 +16,9 @@ layout(binding = UNIT_NORMAL) uniform sampler2DArray normals;
 layout(binding = UNIT_AO) uniform sampler2DArray ao;
 #ifdef COLOR
 #include "lib/color.glsl"
+#include "shared/ao_params.glsl"
 layout(std140, binding = BINDING_COLORS) uniform Colors { ColorParams colors[MODULES_PER_NODE]; };
+layout(std140, binding = BINDING_AO) uniform Ao { AoParams ao_params; };
 #endif
 
 flat in int layer;
@@ -61,7 +63,8 @@ void main() {
 #ifdef COLOR
   ColorParams color = colors[layer];
   if (!has_color(color)) return;
-  vec3 gain = gain_at(color, gl_FragCoord.xy / vec2(textureSize(albedo, 0).xy));
+  float band = ao_params.options.y;  // gains are those of the image without it
+  vec3 gain = gain_at(color, (gl_FragCoord.xy - band) / (vec2(textureSize(albedo, 0).xy) - 2.0 * band));
   out_color.rgb = stored_as(drive_for(color, gain, out_color.rgb));
 #endif
 }

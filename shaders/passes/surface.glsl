@@ -69,6 +69,16 @@ vec4 point_of_fragment(ModuleParams m, uint primitive, vec2 limits) {
 }
 #endif
 
+#ifdef GUARD_BAND
+// Whether a pixel of the module's own image lights what viewers see of the screen, or is one of the guard band. The other pixels of the
+// image are like the band: their surfaces are there for ambient occlusion, and nowhere else.
+bool is_seen_or_band(ModuleParams m, vec2 pixel) {
+  vec2 from_border = min(pixel, m.screen.zw - pixel);
+  if (min(from_border.x, from_border.y) < m.tangential.w) return true;
+  return all(lessThanEqual(abs(2.0 * screen_of_pixel(m, pixel)), m.surface.zw));
+}
+#endif
+
 #ifdef TEXTURED
 in vec2 uv;
 flat in float texture_layer;

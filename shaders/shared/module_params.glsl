@@ -2,8 +2,9 @@
 struct ModuleParams {
   vec4 emitter;            // ex, ey, ez in physical metres; w: map kind, 0 homography (ideal maps too), 1 pinhole, 2 table
   vec4 observer;           // x: height vy, y: distance vz (m); z: diffuser, 0 linear, 1 conical; w: layer of the pixel table, or -1
-  vec4 screen;             // width, height of the screen (m); zw: width, height of the image (px)
-  vec4 surface;            // x: curvature of the screen (1/m), 0: planar; y: level of the observers' arc, 0: a straight line; zw unused
+  vec4 screen;             // width, height of the screen (m); zw: width, height of the image (px), both with the guard band
+  vec4 surface;            // x: curvature of the screen (1/m), 0: planar; y: level of the observers' arc, 0: a straight line; zw: width,
+                           // height of what viewers see of the screen (m); all of it but for a guard band
   vec4 image_from_screen_0;  // rows of the homography screen (m) -> image (px); of a table its base; w unused
   vec4 image_from_screen_1;
   vec4 image_from_screen_2;
@@ -16,5 +17,5 @@ struct ModuleParams {
   vec4 pinhole_2;
   vec4 focal_principal;    // focal_u, focal_v, principal_u, principal_v (px)
   vec4 distortion;         // k1, k2, k3, square of the largest radius that can be inverted
-  vec4 tangential;         // p1, p2; z: number of the module in the display; w unused
+  vec4 tangential;         // p1, p2; z: number of the module in the display; w: guard band (px)
 };

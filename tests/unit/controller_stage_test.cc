@@ -121,6 +121,28 @@ TEST(StageAnimate, StandsStillWithoutADuration) {
 }
 
 // The state travels in one message: what does not fit is refused before anybody waits for it, and the old scene stays.
+// Nodes would refuse it as well; then nothing would be drawn any more.
+TEST(StageSetAo, RefusesAGuardBandThatMakesImagesTooLarge) {
+  Deployment deployment;
+  deployment.display.screen = {1.6, 0.9};
+  deployment.display.image = {8000, 600};
+  deployment.animation_frames_per_second = 4;
+  Stage stage = unwrapped(Stage::of(deployment));
+  ASSERT_TRUE(stage.show(loaded(GltfMaker::triangle())));
+  proto::AmbientOcclusion ao;
+  ao.set_guard_band_px(96);
+  EXPECT_TRUE(stage.set_ao(ao));
+  const std::uint64_t sequence = stage.store().sequence();
+  ao.set_guard_band_px(98);
+  const auto refused = stage.set_ao(ao);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(
+      refused.error().message(),
+      "ao.guard_band_px: images of 8000x600 px become 8196x796 with a guard band of 98 px; at most 8192 px a side "
+      "are possible");
+  EXPECT_EQ(stage.store().sequence(), sequence);
+}
+
 TEST(StageShow, RefusesWhatNoMessageCanHold) {
   Stage stage = stage_with(GltfMaker::triangle());
   const std::string before = stage.store().hash();

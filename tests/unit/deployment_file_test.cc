@@ -101,6 +101,19 @@ TEST_F(DeploymentFile, AnotherDisplayIsSharedEqually) {
   EXPECT_THAT(deployment->nodes[1].modules, ElementsAre(2, 3));
 }
 
+TEST_F(DeploymentFile, AGuardBandMustFitTheDisplay) {
+  DisplayCalibration large = *make_display("desk", 4);
+  large.image = {8000, 600};
+  ASSERT_TRUE(save_calibration(folder_ / "large.textproto", large));
+  std::string text(kText);
+  text.replace(text.find("samples: 8"), 10, "guard_band_px: 100");
+  EXPECT_TRUE(load(text));
+  const auto refused = load(text, {folder_ / "large.textproto", "other.glb"});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(),
+              testing::HasSubstr("9: render: ao.guard_band_px: images of 8000x600 px become 8200x800"));
+}
+
 TEST_F(DeploymentFile, EveryBadFieldIsNamedWithItsLine) {
   struct Case {
     std::string_view part, replacement, error;
