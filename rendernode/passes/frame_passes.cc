@@ -115,7 +115,7 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
   glDisable(GL_DEPTH_TEST);
   if (plan.pyramid_levels > 0) LFD_TRY_STATUS(pyramid(plan, commands, targets, timers));
   if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(plan, commands, inputs, targets, timers));
-  if (plan.blur) LFD_TRY_STATUS(blur(commands, inputs.settings.ao, targets, timers));
+  if (plan.blur) LFD_TRY_STATUS(blur(plan, commands, inputs.settings.ao, targets, timers));
   if (plan.post) LFD_TRY_STATUS(post(plan, commands, inputs, targets, timers));
   return {};
 }
@@ -214,6 +214,7 @@ Status FramePasses::post(const FramePlan& plan, const CommandList& commands, con
   if (plan.ao) flags.emplace_back("READ_AO");
   if (plan.position && inputs.lights.facts.need_position) flags.emplace_back("READ_POSITION");
   if (plan.normal && inputs.lights.facts.need_normal) flags.emplace_back("READ_NORMAL");
+  if (plan.bent) flags.emplace_back("BENT");
   if (plan.color) flags.emplace_back("COLOR");
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/post.frag"}, flags));
   glUseProgram(name);

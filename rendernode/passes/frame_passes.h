@@ -47,8 +47,9 @@ class FramePasses {
   Status pyramid(const FramePlan& plan, const CommandList& commands, const Targets& targets, PassTimers& timers);
   Status ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                            const Targets& targets, PassTimers& timers);
-  Status upsample(const CommandList& commands, const Targets& targets, PassTimers& timers);
-  Status blur(const CommandList& commands, const AoSettings& ao, const Targets& targets, PassTimers& timers);
+  Status upsample(const FramePlan& plan, const CommandList& commands, const Targets& targets, PassTimers& timers);
+  Status blur(const FramePlan& plan, const CommandList& commands, const AoSettings& ao, const Targets& targets,
+              PassTimers& timers);
   Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
               PassTimers& timers);
   void draw_layers(const CommandList& commands, const char* pass, PassTimers& timers);

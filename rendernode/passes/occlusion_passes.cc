@@ -8,6 +8,8 @@
 namespace lfd {
 namespace {
 
+gl::Flags flags_of(const FramePlan& plan) { return plan.bent ? gl::Flags{"BENT"} : gl::Flags{}; }
+
 constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;  // uniform locations of both blurs
 
 }  // namespace
@@ -33,9 +35,10 @@ Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, 
 Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
-  gl::Flags flags;
+  const bool reads_normal = method.normal || plan.bent;
+  gl::Flags flags = flags_of(plan);
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
-                                     {method.normal, "NORMAL"},
+                                     {reads_normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},
                                      {method.pyramid != occlusion::Pyramid::kNone, "PYRAMID"}}) {
     if (is_set) flags.emplace_back(flag);
@@ -46,17 +49,18 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(0));
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
-  if (method.normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  if (reads_normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
   for (int i = 0; i < plan.pyramid_levels; ++i)
     glBindTextureUnit(UNIT_PYRAMID + static_cast<GLuint>(i),
                       targets.pyramid().levels()[static_cast<std::size_t>(i)].position.name());
   draw_layers(commands, "ao", timers);
   glViewport(0, 0, targets.size().width, targets.size().height);
-  return plan.upsample ? upsample(commands, targets, timers) : Status();
+  return plan.upsample ? upsample(plan, commands, targets, timers) : Status();
 }
 
-Status FramePasses::upsample(const CommandList& commands, const Targets& targets, PassTimers& timers) {
-  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, {}));
+Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands, const Targets& targets,
+                             PassTimers& timers) {
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, flags_of(plan)));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
@@ -65,12 +69,13 @@ Status FramePasses::upsample(const CommandList& commands, const Targets& targets
   return {};
 }
 
-Status FramePasses::blur(const CommandList& commands, const AoSettings& ao, const Targets& targets,
-                         PassTimers& timers) {
+Status FramePasses::blur(const FramePlan& plan, const CommandList& commands, const AoSettings& ao,
+                         const Targets& targets, PassTimers& timers) {
   const bool is_gaussian = ao.blur == AoBlur::kGaussian;
   const char* fragment = is_gaussian ? "passes/blur.frag" : "passes/blur_geometry.frag";
-  LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, {}));
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, flags_of(plan)));
   glUseProgram(name);
+  if (!is_gaussian || plan.bent) glBindTextureUnit(UNIT_NORMAL, targets.normal());
   if (is_gaussian) {
     const auto weights = gaussian_weights(ao.blur_sigma_px);
     glUniform1i(kBlurTaps, static_cast<GLint>(weights.size()) - 1);
@@ -78,7 +83,6 @@ Status FramePasses::blur(const CommandList& commands, const AoSettings& ao, cons
   } else {
     glUniform1i(kBlurTaps, ao.blur_taps);
     glBindTextureUnit(UNIT_POSITION, targets.position());
-    glBindTextureUnit(UNIT_NORMAL, targets.normal());
   }
   for (int i = 0; i < 2; ++i) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(1 - i));
