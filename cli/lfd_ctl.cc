@@ -32,7 +32,7 @@ struct Arguments {
   std::vector<double> orientation;
   bool whole = false;
   std::string scene;
-  std::optional<bool> ao_enabled, ao_blur, ao_half;
+  std::optional<bool> ao_enabled, ao_blur, ao_half, ao_bent;
   std::optional<double> ao_radius_m, ao_sigma_px;
   std::optional<int> ao_samples, ao_radii, ao_least_samples, ao_guard_band_px;
   std::string ao_method, ao_generator, ao_target, ao_blur_kind;
@@ -125,6 +125,7 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   if (arguments.ao_least_samples) ao.set_least_samples(*arguments.ao_least_samples);
   if (arguments.ao_half) ao.set_half_resolution(*arguments.ao_half);
   if (arguments.ao_guard_band_px) ao.set_guard_band_px(*arguments.ao_guard_band_px);
+  if (arguments.ao_bent) ao.set_bent_normals(*arguments.ao_bent);
   if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
   if (arguments.ao_seed) ao.set_seed(*arguments.ao_seed);
   if (!arguments.ao_curve.empty()) {
@@ -220,6 +221,8 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   command
       .add_option("--guard-band", a.ao_guard_band_px, "Draw so many pixels beside the images too, for their borders")
       ->check(whole_number_within(0, 1024));
+  add_switch(command, "--bent-normals", "--plain-normals", a.ao_bent,
+             "Light surfaces by their mean open direction, of methods that have directions");
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
   command.add_option("--seed", a.ao_seed, "Of the samples");
   add_numbers(command, "--curve", a.ao_curve, "A,B,C", "Post curve: ao' = 1 - clamp(B ((1 - ao) + A), 0, 1)^C");

@@ -11,8 +11,8 @@ namespace lfd {
 namespace {
 
 const std::vector<std::string>& buffer_names() {
-  static const std::vector<std::string> names{"color", "position", "normal", "ao",
-                                              "depth"};  // in the order of BufferKind
+  static const std::vector<std::string> names{"color", "position", "normal",
+                                              "ao",    "depth",    "bent_normal"};  // in the order of BufferKind
   return names;
 }
 

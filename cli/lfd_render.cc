@@ -222,7 +222,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--out", options.cluster.images, "Folder for images and report.json")->required();
   add_list(*command, "--buffers", arguments->buffers,
-           "color,position,normal,ao,depth: what is written (color always is)");
+           "color,position,normal,ao,depth,bent_normal: what is written (color always is)");
   command->add_flag("--time-modules", options.time_modules, "Report times for each module by itself (slower)");
 }
 

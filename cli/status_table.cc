@@ -35,12 +35,13 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
   for (std::size_t i = 0; i < ao.parameters.size(); ++i)
     parameters += fmt::format("{}{} {:g}", i == 0 ? "" : ", ", ao.method->parameters[i].name, ao.parameters[i]);
   return fmt::format(
-      "occlusion  {}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
+      "occlusion  {}{}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
       "curve      a {:g}, b {:g}, c {:g}\nblur       {}\nguard band {} px\ntarget     {}\n",
       !ao.enabled          ? "off"
       : ao.half_resolution ? "on, half resolution"
                            : "on",
-      ao.method->name, parameters.empty() ? "" : ": ", parameters,
+      ao.enabled && ao.bent_normals ? ", bent normals" : "", ao.method->name, parameters.empty() ? "" : ": ",
+      parameters,
       ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
                       : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
       ao.radii,

@@ -25,6 +25,8 @@ const char* ending(proto::BufferKind buffer) {
       return "normal.exr";
     case proto::AO:
       return "ao.exr";
+    case proto::BENT_NORMAL:
+      return "bent_normal.exr";
     default:
       return "depth.exr";
   }
@@ -77,7 +79,7 @@ std::filesystem::path report_path(const std::filesystem::path& folder) { return 
 
 Result<int> remove_frames(const std::filesystem::path& folder) {
   static const std::regex frame_name("frame-[0-9]{4,}");
-  static const std::regex image_name("module-[0-9]{3,}\\.(color\\.png|(position|normal|ao|depth)\\.exr)");
+  static const std::regex image_name("module-[0-9]{3,}\\.(color\\.png|(position|normal|ao|depth|bent_normal)\\.exr)");
   std::vector<std::filesystem::path> files;
   const auto frames = entries_named(folder, frame_name);
   int with_images = 0;

@@ -12,7 +12,7 @@ namespace lfd {
 // folder/frame-0000: where the images of a frame lie.
 std::filesystem::path frame_path(const std::filesystem::path& folder, std::uint64_t frame);
 
-// folder/frame-0000/module-000.color.png, .position.exr, .normal.exr, .ao.exr or .depth.exr.
+// folder/frame-0000/module-000.color.png, .position.exr, .normal.exr, .ao.exr, .depth.exr or .bent_normal.exr.
 std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
                                  proto::BufferKind buffer);
 

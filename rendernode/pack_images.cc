@@ -62,6 +62,13 @@ std::shared_ptr<const std::string> pack_ao(std::span<const std::byte> pixels, co
   });
 }
 
+std::shared_ptr<const std::string> pack_bent_normal(std::span<const std::byte> pixels) {
+  return converted<Pixel>(pixels, [](const Pixel& p) -> Pixel {
+    if (p[0] < 0) return {};
+    return {p[1], p[2], p[3], 1};
+  });
+}
+
 }  // namespace
 
 std::shared_ptr<const std::string> pack_image(proto::BufferKind kind, std::span<const std::byte> pixels,
@@ -76,6 +83,9 @@ std::shared_ptr<const std::string> pack_image(proto::BufferKind kind, std::span<
     case proto::AO:
       if (in.ao_pass) return pack_ao(pixels, in.ao);
       return converted<Pixel>(pixels, [](const Pixel& p) -> Pixel { return {0, 0, 0, p[3]}; });
+    case proto::BENT_NORMAL:
+      if (in.bent) return pack_bent_normal(pixels);
+      [[fallthrough]];
     default:
       return converted<Pixel>(pixels, [](const Pixel& p) { return has_seen_surface(p) ? p : Pixel(); });
   }

@@ -18,6 +18,10 @@ std::vector<ReadbackItem> Renderer::wanted(const Slot& slot) const {
       items.push_back({layer, proto::POSITION, targets_.position(), GL_RGBA, GL_FLOAT, 16});
     if (asked.has(proto::NORMAL)) items.push_back({layer, proto::NORMAL, targets_.normal(), GL_RGBA, GL_FLOAT, 16});
     if (asked.has(proto::DEPTH)) items.push_back({layer, proto::DEPTH, targets_.position(), GL_RGBA, GL_FLOAT, 16});
+    // Without bent normals every direction is open.
+    if (asked.has(proto::BENT_NORMAL))
+      items.push_back(
+          {layer, proto::BENT_NORMAL, slot.plan.bent ? targets_.ao(0) : targets_.normal(), GL_RGBA, GL_FLOAT, 16});
     if (!asked.has(proto::AO)) continue;
     // Without an ambient-occlusion pass every surface is open; the positions tell where one is.
     if (slot.plan.ao) {
@@ -31,7 +35,7 @@ std::vector<ReadbackItem> Renderer::wanted(const Slot& slot) const {
 
 std::vector<ModuleImage> Renderer::images_of(const Slot& slot) const {
   std::vector<ModuleImage> images;
-  const PackInputs pack{slot.roi, slot.ao, slot.plan.ao};
+  const PackInputs pack{slot.roi, slot.ao, slot.plan.ao, slot.plan.bent};
   for (std::size_t i = 0; i < slot.readback.items().size(); ++i) {
     const auto& item = slot.readback.items()[i];
     images.push_back(
@@ -54,7 +58,8 @@ void Renderer::append_empty(const Slot& slot, std::vector<ModuleImage>& images) 
     if (std::ranges::binary_search(slot.plan.active_layers, layer) ||
         std::ranges::binary_search(slot.plan.unchanged_layers, layer))
       continue;
-    for (const auto kind : {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH}) {
+    for (const auto kind :
+         {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH, proto::BENT_NORMAL}) {
       if (kind != proto::COLOR && !slot.options.buffers.has(kind)) continue;
       images.push_back({modules_[layer], kind, display_.image, true, nullptr});
     }

@@ -30,7 +30,8 @@ std::vector<RayOcclusion> ray_occlusion(const Intersector& intersector, const Sp
   const int columns = (choice.rays + rows - 1) / rows, count = rows * columns;
   std::mt19937_64 random(choice.seed);
   std::uniform_real_distribution<double> within(0, 1);
-  std::vector<RayOcclusion> sums(radius_m.size());
+  // Over all of the hemisphere the mean direction is 2/3 of the normal by cosine, 1/2 where each is as likely.
+  std::vector<RayOcclusion> sums(radius_m.size(), {0, 0, frame[2], frame[2]});
   for (int i = 0; i < count; ++i) {
     const double height = (i / columns + within(random)) / rows, r = std::sqrt(1 - height * height);
     const double turn = 2 * std::numbers::pi * (i % columns + within(random)) / columns;
@@ -43,6 +44,8 @@ std::vector<RayOcclusion> ray_occlusion(const Intersector& intersector, const Sp
       const double weight = std::max(0.0, 1 - way_m / radius_m[k]);
       sums[k].uniform += weight / count;
       sums[k].cosine += 2 * height * weight / count;
+      sums[k].open_uniform -= 2 * weight / count * direction;
+      sums[k].open_cosine -= 3 * height * weight / count * direction;
     }
   }
   return sums;

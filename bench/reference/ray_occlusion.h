@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "bench/reference/method_limit.h"
@@ -13,6 +14,9 @@ namespace lfd::reference {
 struct RayOcclusion {
   double cosine = 0;   // weighed by the cosine to the normal (Aalund 2013, equation 2.5)
   double uniform = 0;  // every direction alike (Pyramid HBAO, equation 1)
+  // The mean of the directions, each times 1 - W(r), weighed likewise; in units of its length where all is open, so
+  // that it is the normal there.
+  glm::dvec3 open_cosine{0}, open_uniform{0};
 };
 
 struct RayChoice {

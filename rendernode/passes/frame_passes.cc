@@ -216,6 +216,7 @@ Status FramePasses::post(const FramePlan& plan, const CommandList& commands, con
   if (plan.ao) flags.emplace_back("READ_AO");
   if (plan.position && inputs.lights.facts.need_position) flags.emplace_back("READ_POSITION");
   if (plan.normal && inputs.lights.facts.need_normal) flags.emplace_back("READ_NORMAL");
+  if (plan.bent) flags.emplace_back("BENT");
   if (plan.color) flags.emplace_back("COLOR");
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/post.frag"}, flags));
   glUseProgram(name);

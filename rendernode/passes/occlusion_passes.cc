@@ -9,6 +9,8 @@
 namespace lfd {
 namespace {
 
+gl::Flags flags_of(const FramePlan& plan) { return plan.bent ? gl::Flags{"BENT"} : gl::Flags{}; }
+
 constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;  // uniform locations of both blurs
 
 // How far a blur looks to each side, pixels.
@@ -40,9 +42,10 @@ Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, 
 Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
-  gl::Flags flags;
+  const bool reads_normal = method.normal || plan.bent;
+  gl::Flags flags = flags_of(plan);
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
-                                     {method.normal, "NORMAL"},
+                                     {reads_normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},
                                      {plan.guard_band_px > 0, "GUARD_BAND"},
                                      {method.pyramid != occlusion::Pyramid::kNone, "PYRAMID"}}) {
@@ -54,7 +57,7 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(0));
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
-  if (method.normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  if (reads_normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
   for (int i = 0; i < plan.pyramid_levels; ++i)
     glBindTextureUnit(UNIT_PYRAMID + static_cast<GLuint>(i),
                       targets.pyramid().levels()[static_cast<std::size_t>(i)].position.name());
@@ -69,7 +72,7 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
 
 Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands, const AoSettings& ao,
                              const Targets& targets, PassTimers& timers) {
-  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, {}));
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, flags_of(plan)));
   glUseProgram(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
@@ -84,8 +87,9 @@ Status FramePasses::blur(const FramePlan& plan, const CommandList& commands, con
                          const Targets& targets, PassTimers& timers) {
   const bool is_gaussian = ao.blur == AoBlur::kGaussian;
   const char* fragment = is_gaussian ? "passes/blur.frag" : "passes/blur_geometry.frag";
-  LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, {}));
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, flags_of(plan)));
   glUseProgram(name);
+  if (!is_gaussian || plan.bent) glBindTextureUnit(UNIT_NORMAL, targets.normal());
   if (is_gaussian) {
     const auto weights = gaussian_weights(ao.blur_sigma_px);
     glUniform1i(kBlurTaps, static_cast<GLint>(weights.size()) - 1);
@@ -93,7 +97,6 @@ Status FramePasses::blur(const FramePlan& plan, const CommandList& commands, con
   } else {
     glUniform1i(kBlurTaps, ao.blur_taps);
     glBindTextureUnit(UNIT_POSITION, targets.position());
-    glBindTextureUnit(UNIT_NORMAL, targets.normal());
   }
   for (int i = 0; i < 2; ++i) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(1 - i));

@@ -33,11 +33,20 @@ bool Targets::make_textures(const FramePlan& plan) {
   make(depth_, GL_DEPTH_COMPONENT32F);
   if (plan.position) make(position_, GL_RGBA32F);
   if (plan.normal) make(normal_, GL_RGBA16F);
-  if (plan.ao) make(ao_[0], GL_R16F);
-  if (plan.upsample) make_of(half_ao_, GL_R16F, half_size());
-  if (plan.ao && plan.blur) make(ao_[1], GL_R16F);
+  if (plan.ao && plan.bent != bent_) drop_ao(plan.bent);
+  const GLenum ao_format = bent_ ? GL_RGBA16F : GL_R16F;
+  if (plan.ao) make(ao_[0], ao_format);
+  if (plan.upsample) make_of(half_ao_, ao_format, half_size());
+  if (plan.ao && plan.blur) make(ao_[1], ao_format);
   if (plan.post) make(color_, GL_SRGB8_ALPHA8);
   return made;
+}
+
+void Targets::drop_ao(bool bent) {
+  for (gl::Texture* texture : {&ao_[0], &ao_[1], &half_ao_}) *texture = {};
+  for (gl::Framebuffer* framebuffer : {&ao_framebuffer_[0], &ao_framebuffer_[1], &half_ao_framebuffer_})
+    *framebuffer = {};
+  bent_ = bent;
 }
 
 void Targets::make_framebuffers() {

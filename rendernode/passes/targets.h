@@ -24,7 +24,8 @@ class Targets {
   GLuint position() const { return position_.name(); }
   // RGBA16F, world.
   GLuint normal() const { return normal_.name(); }
-  // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back.
+  // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back. With bent normals
+  // RGBA16F: g, b and a are the mean open direction in the world, of length 1 where all is open.
   GLuint ao(int i) const { return ao_[i].name(); }
   // The same of half the resolution, rounded up.
   GLuint half_ao() const { return half_ao_.name(); }
@@ -42,12 +43,14 @@ class Targets {
 
  private:
   bool make_textures(const FramePlan& plan);  // whether any was missing
+  void drop_ao(bool bent);                    // those made next are so
   void make_framebuffers();
 
   ImageSize size_;
   int layers_;
   gl::Texture albedo_, depth_, position_, normal_, color_;
   gl::Texture ao_[2], half_ao_;
+  bool bent_ = false;  // as these are
   PositionPyramid pyramid_;
   gl::Framebuffer depth_framebuffer_, color_framebuffer_;
   gl::Framebuffer ao_framebuffer_[2], half_ao_framebuffer_;

@@ -40,7 +40,10 @@ class Planner {
     });
   }
 
-  bool reads_ao() const { return is_lit() || in_.buffers.has(proto::AO); }
+  bool is_bent_possible() const { return in_.settings.ao.bent_normals && in_.settings.ao.method->directions; }
+  bool reads_ao() const {
+    return is_lit() || in_.buffers.has(proto::AO) || (is_bent_possible() && in_.buffers.has(proto::BENT_NORMAL));
+  }
 
   // A guard band serves ambient occlusion that is read, and nothing else: even where everything is planned.
   bool has_guard_band() const { return in_.banded != nullptr && in_.settings.ao.enabled && reads_ao(); }
@@ -123,12 +126,16 @@ class Planner {
     const bool lights = everything_ || (any && lit);
     plan_.post = lights || plan_.color;
     if (!plan_.post) leave_out("pass", "post", any ? "every surface is unlit" : "no module sees geometry");
+    plan_.bent = plan_.ao && is_bent_possible() &&
+                 (everything_ || in_.buffers.has(proto::BENT_NORMAL) || (lights && in_.lights.need_normal));
+    if (plan_.ao && in_.settings.ao.bent_normals && !plan_.bent)
+      leave_out("target", "bent normal", is_bent_possible() ? "nothing reads it" : "the method has no directions");
     plan_.position = everything_ || plan_.ao || in_.buffers.has(proto::POSITION) || in_.buffers.has(proto::DEPTH) ||
                      in_.buffers.has(proto::AO) || (lights && in_.lights.need_position);
     if (!plan_.position) leave_out("target", "position", "nothing reads it");
-    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || (lights && in_.lights.need_normal) ||
-                   (plan_.ao && in_.settings.ao.method->normal) || plan_.upsample ||
-                   (plan_.blur && in_.settings.ao.blur == AoBlur::kGeometry);
+    plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || in_.buffers.has(proto::BENT_NORMAL) || plan_.bent ||
+                   (lights && in_.lights.need_normal) || (plan_.ao && in_.settings.ao.method->normal) ||
+                   plan_.upsample || (plan_.blur && in_.settings.ao.blur == AoBlur::kGeometry);
     if (!plan_.normal) leave_out("target", "normal", "nothing reads it");
     choose_prepass(any, textured);
   }
@@ -147,8 +154,8 @@ class Planner {
   // What a layer's picture shows beside its items is the same for all layers.
   void hash_inputs() {
     const std::string passes =
-        fmt::format("{}{}{}{}{}{}{}{} {}", plan_.upsample, plan_.pyramid_levels, plan_.position, plan_.normal, plan_.ao,
-                    plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
+        fmt::format("{}{}{}{}{}{}{}{}{} {}", plan_.upsample, plan_.bent, plan_.pyramid_levels, plan_.position,
+                    plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
     for (std::string& items : plan_.inputs)
       items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
   }

@@ -73,6 +73,7 @@ struct FramePlan {
   std::vector<std::string> inputs;              // of each layer: a hash of all that its picture depends on
   bool z_prepass = true, position = true, normal = true, ao = true, blur = true, post = true;
   bool upsample = false;   // ambient occlusion is of half the resolution
+  bool bent = false;       // it finds mean open directions too
   int pyramid_levels = 0;  // of positions, beside the full picture; 0: the method reads none
   int pyramid_factor = 0;  // how many times smaller each is than the one before
   int guard_band_px = 0;   // geometry is drawn so far beside the images, for ambient occlusion

@@ -63,6 +63,41 @@ uint sectors(Spot spot, Disk disk, vec2 direction, float side, float gamma, floa
   return mask;
 }
 
+// place_in_half() backward, by bisection.
+float angle_of_place(float place, float gamma) {
+  float low = gamma - 0.5 * pi, high = gamma + 0.5 * pi;
+  for (int i = 0; i < 16; ++i) {
+    float middle = 0.5 * (low + high);
+    if (place_in_half(middle, gamma) < place) low = middle; else high = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Integral of the directions between the viewers and a horizon, along the slice (x) and to the viewers (y), weighed as in arc().
+vec2 directions_of_arc(float h, float gamma) {
+  float side = h < 0.0 ? -1.0 : 1.0, sine = sin(abs(h)), cosine = cos(h), sine3 = sine * sine * sine, cosine3 = cosine * cosine * cosine;
+  return vec2(side * (cos(gamma) * sine3 + side * sin(gamma) * (cosine3 - 3.0 * cosine + 2.0)),
+              cos(gamma) * (1.0 - cosine3) + side * sin(gamma) * sine3) / 3.0;
+}
+
+// The same of the half circle up to the first so many sectors, but for a constant.
+vec2 directions_up_to(int sector, float gamma) {
+  float angle = angle_of_place(float(sector) / 32.0, gamma);
+  return sign(angle) * directions_of_arc(angle, gamma);
+}
+
+// The same of covered sectors, run by run.
+vec2 directions_of_sectors(uint mask, float gamma) {
+  vec2 sum = vec2(0.0);
+  while (mask != 0u) {
+    int first = findLSB(mask), end = findLSB(~(mask | ((1u << uint(first)) - 1u)));
+    if (end < 0) end = 32;
+    sum += directions_up_to(end, gamma) - directions_up_to(first, gamma);
+    mask = end == 32 ? 0u : mask >> uint(end) << uint(end);
+  }
+  return sum;
+}
+
 float occlusion(Spot spot, float radius) {
   vec3 random = noise();
   int count = count_at(spot, int(slices));
@@ -79,15 +114,23 @@ float occlusion(Spot spot, float radius) {
     float gamma = clamp(atan(projected.x, projected.y), -0.5 * pi, 0.5 * pi);
     float all = strength * half_circle(gamma);
     whole += all;
+    mat2x3 slice = strength * mat2x3(along, disk.view);
+    vec2 ends = directions_of_arc(gamma - 0.5 * pi, gamma) + directions_of_arc(gamma + 0.5 * pi, gamma);
     if (bitmask != 0.0) {
       uint mask = sectors(spot, disk, direction, 1.0, gamma, radius, random.y) |
                   sectors(spot, disk, direction, -1.0, gamma, radius, random.z);
-      open += all * (1.0 - float(bitCount(mask)) / 32.0);
+      float left = all * (1.0 - float(bitCount(mask)) / 32.0);
+      open += left;
+#ifdef BENT
+      see(slice * ends, slice * (ends - directions_of_sectors(mask, gamma)), all, left);
+#endif
       continue;
     }
     float front = acos(clamp(horizon(spot, disk, direction, cos(gamma + 0.5 * pi), radius, random.y), -1.0, 1.0));
     float back = -acos(clamp(horizon(spot, disk, -direction, cos(gamma - 0.5 * pi), radius, random.z), -1.0, 1.0));
-    open += strength * (arc(front, gamma) + arc(back, gamma));
+    float left = strength * (arc(front, gamma) + arc(back, gamma));
+    open += left;
+    see(slice * ends, slice * (directions_of_arc(back, gamma) + directions_of_arc(front, gamma)), all, left);
   }
   return whole == 0.0 ? 0.0 : 1.0 - open / whole;
 }

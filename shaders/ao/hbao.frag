@@ -20,7 +20,10 @@ float occlusion(Spot spot, float radius) {
     float angle = turn * float(i);
     vec2 direction = vec2(cos(angle), sin(angle));
     vec3 along = direction.x * disk.x + direction.y * disk.y;
-    float highest = sin(min(atan(-dot(spot.normal, along), facing) + bias, 1.57079632679));
+    float tangent = atan(-dot(spot.normal, along), facing), lowest = sin(tangent);
+    float highest = sin(min(tangent + bias, 1.57079632679));
+    vec2 all = arc_above(lowest), open = all;
+    float open_share = 1.0 - lowest;
     for (int j = 0; j < int(steps); ++j) {
       vec4 surface = surface_at_offset(disk, radius * ((float(j) + random.y) / steps) * direction);
       vec3 v = surface.xyz - spot.p;
@@ -28,9 +31,17 @@ float occlusion(Spot spot, float radius) {
       if (surface.w == 0.0 || r2 >= radius * radius || r2 == 0.0) continue;
       float height = dot(v, disk.view) * inversesqrt(r2);
       if (height <= highest) continue;
-      sum += (height - highest) * (1.0 - r2 / (radius * radius));
+      float weight = 1.0 - r2 / (radius * radius);
+      sum += (height - highest) * weight;
+      // Pixels lie beside the direction, where a slanted plane is higher: that hides nothing of it.
+      if (dot(v, spot.normal) * inversesqrt(r2) > 0.002) {
+        open -= weight * (arc_above(highest) - arc_above(height));
+        open_share -= weight * (height - highest);
+      }
       highest = height;
     }
+    mat2x3 slice = mat2x3(along, disk.view);
+    see(slice * all, slice * open, 1.0 - lowest, open_share);
   }
   return sum / float(count);
 }

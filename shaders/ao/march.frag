@@ -24,7 +24,11 @@ float occlusion(Spot spot, float radius) {
   mat3 frame_of_normal = axes * frame_about(normalize(spot.normal * axes), 6.28318530718 * random.x);  // v * m: m^T v
   float sum = 0.0;
   int count = sample_count(spot);
-  for (int i = 0; i < count; ++i)
-    sum += hidden_along(spot, frame_of_normal * samples[i].xyz, radius, fract(samples[i].w + random.y));
+  for (int i = 0; i < count; ++i) {
+    vec3 direction = frame_of_normal * samples[i].xyz;
+    float hidden = hidden_along(spot, direction, radius, fract(samples[i].w + random.y));
+    sum += hidden;
+    see(direction, 1.0 - hidden);
+  }
   return sum / float(count);
 }

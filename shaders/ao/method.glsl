@@ -8,6 +8,8 @@
 #include "lib/half_resolution.glsl"
 #include "lib/image_map.glsl"
 #include "lib/sampling.glsl"
+#include "lib/ao_value.glsl"
+#include "ao/open_directions.glsl"
 
 layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
@@ -24,16 +26,16 @@ layout(binding = UNIT_PYRAMID) uniform sampler2DArray pyramid[PYRAMID_LEVELS - 1
 #endif
 
 flat in int layer;
-layout(location = 0) out float out_hidden;  // 0 open, 1 hidden; -1 where there is no surface
+layout(location = 0) out AoValue out_value;  // 0 open, 1 hidden; -1 where there is no surface
 
 // The surface of the pixel that is shaded.
 struct Spot {
   ModuleParams m;
   vec3 p;       // world minus ROI centre
-  vec3 normal;  // world, unit, on the side that is seen; of methods that read normals
+  vec3 normal;  // world, unit, on the side that is seen; of methods that read normals, and with BENT
 };
 
-// 0 open, 1 hidden, within the radius (m, in the world).
+// 0 open, 1 hidden, within the radius (m, in the world). Methods that know directions see() them.
 float occlusion(Spot spot, float radius);
 
 // The pixel of the full picture that is shaded, and its middle.
@@ -170,7 +172,7 @@ vec4 surface_at_offset(Disk disk, vec2 offset) {
 void main() {
   ivec3 at = ivec3(own_pixel(), layer);
   vec4 p = texelFetch(positions, at, 0);
-  out_hidden = -1.0;
+  out_value = kNoSurface;
   if (p.w < 1.0) return;
   Spot spot = Spot(modules[layer], p.xyz, vec3(0.0));
 #ifdef NORMAL
@@ -178,6 +180,12 @@ void main() {
 #endif
   float radius = ao.radii.x;
   float most = 0.0;
-  for (int level = 0; level < int(ao.radii.y); ++level, radius *= 0.5) most = max(most, occlusion(spot, radius));
-  out_hidden = min(most, 1.0);
+  vec3 open = vec3(0.0);  // of the radius that hides most
+  for (int level = 0; level < int(ao.radii.y); ++level, radius *= 0.5) {
+    see_nothing_yet();
+    float hidden = occlusion(spot, radius);
+    if (level == 0 || hidden > most) open = mean_open_direction(spot.normal);
+    most = max(most, hidden);
+  }
+  out_value = ao_value(min(most, 1.0), open);
 }

@@ -12,6 +12,7 @@ layout(std140, binding = BINDING_AO_METHOD) uniform Parameters {
 float occlusion(Spot spot, float radius) {
   vec3 random = noise();
   Disk disk = disk_across(spot, radius, 0.0);
+  float facing = max(dot(spot.normal, disk.view), 1e-3);
   float sum = 0.0;
   int count = count_at(spot, int(directions));
   for (int i = 0; i < count; ++i) {
@@ -19,7 +20,7 @@ float occlusion(Spot spot, float radius) {
     float angle = 6.28318530718 * own.x;
     vec2 along = disk.pixels_per_m * vec2(cos(angle), sin(angle));
     vec2 direction = along / max(length(along), 1e-30);
-    float step_px = 1.0 + own.y, reach_px = 0.0, most = 0.0;
+    float step_px = 1.0 + own.y, reach_px = 0.0, most = 0.0, horizon = 0.0;  // its sine above the tangent plane
     int size = 1;
     for (int level = 0; level < int(levels); ++level) {
       for (int j = 0; j < int(steps); ++j) {
@@ -28,12 +29,20 @@ float occlusion(Spot spot, float radius) {
         vec4 surface = any(lessThan(pixel, ivec2(0))) ? vec4(0.0) : surface_of_level(level, pixel / size);
         vec3 v = surface.xyz - spot.p;
         float r = length(v);
-        if (surface.w != 0.0 && r > 0.0) most = max(most, max(0.0, 1.0 - r / radius) * dot(spot.normal, v) / r);
+        if (surface.w == 0.0 || r == 0.0) continue;
+        float hidden = max(0.0, 1.0 - r / radius) * dot(spot.normal, v) / r;
+        if (hidden > most) horizon = dot(spot.normal, v) / r;
+        most = max(most, hidden);
       }
       step_px *= 3.0;
       size *= 3;
     }
     sum += most;
+    vec3 across = cos(angle) * disk.x + sin(angle) * disk.y, tangent = across - dot(spot.normal, across) / facing * disk.view;
+    float share = 1.0 / dot(tangent, tangent);  // of the turn about the normal that one direction of the disk stands for
+    mat2x3 slice = share * mat2x3(normalize(tangent), spot.normal);
+    vec2 all = arc_above(0.0), open = horizon > 0.0 ? all - most / horizon * (all - arc_above(horizon)) : all;
+    see(slice * all, slice * open, share, share * (1.0 - most));
   }
   return sum / float(count);
 }

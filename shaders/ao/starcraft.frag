@@ -9,9 +9,12 @@ float occlusion(Spot spot, float radius) {
   int count = sample_count(spot);
   for (int i = 0; i < count; ++i) {
     vec3 offset = turn * samples[i].xyz;
-    vec3 point = spot.p + radius * (dot(offset, spot.normal) < 0.0 ? -offset : offset);
+    if (dot(offset, spot.normal) < 0.0) offset = -offset;
+    vec3 point = spot.p + radius * offset;
     vec4 surface = surface_before(spot.m, point);
-    if (surface.w != 0.0) sum += min(1.0, radius / max(distance(surface.xyz, point), 1e-30));
+    float hidden = surface.w != 0.0 ? min(1.0, radius / max(distance(surface.xyz, point), 1e-30)) : 0.0;
+    sum += hidden;
+    see(normalize(offset), 1.0 - hidden);
   }
   return sum / float(count);
 }

@@ -53,6 +53,10 @@ vec3 light_of(ivec3 at) {
 #endif
 #ifdef READ_NORMAL
   normal = normalize(texelFetch(normals, at, 0).xyz);
+#ifdef BENT
+  vec3 open = texelFetch(ao, at, 0).gba;
+  if (dot(open, open) > 0.0) normal = normalize(open);
+#endif
 #endif
   vec3 light = lit(base.rgb, position, normal, openness);
   return frame.ambient_occlusion.w == 2.0 ? light * openness : light;

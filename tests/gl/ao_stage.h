@@ -8,6 +8,7 @@
 
 #include "bench/reference/ao_limit.h"
 #include "bench/reference/method_limit.h"
+#include "bench/reference/ray_occlusion.h"
 #include "controller/scene/made/made_scenes.h"
 #include "tests/support/rendering.h"
 
@@ -109,6 +110,15 @@ class AoStage {
     if (!hit) return std::nullopt;
     return reference::method_limit(*intersector_, view, reference::spot_of(view, *scene_, *hit), settings, radius_m,
                                    effort);
+  }
+
+  // Of the surface that a pixel shows; absent where it shows none.
+  std::optional<reference::RayOcclusion> rays(PixelIndex at, double radius_m,
+                                              const reference::RayChoice& choice) const {
+    const reference::ModuleView view{display_, display_.modules[module_], {}};
+    const auto hit = reference::cast_point(*intersector_, view, centre_of(at));
+    if (!hit) return std::nullopt;
+    return reference::ray_occlusion(*intersector_, reference::spot_of(view, *scene_, *hit), {radius_m}, choice)[0];
   }
 
   reference::AoLimit limit(Point3<World> p, const AoSettings& settings, const reference::AoSampling& sampling) const {

@@ -28,12 +28,14 @@ TEST(Buffers, AreBitsInTheOrderOfTheirKinds) {
   EXPECT_EQ(*parse_buffers({"color", "depth"}), 1u << proto::COLOR | 1u << proto::DEPTH);
   EXPECT_EQ(*parse_buffers({"position", "normal", "ao"}),
             1u << proto::POSITION | 1u << proto::NORMAL | 1u << proto::AO);
+  EXPECT_EQ(*parse_buffers({"bent_normal"}), 1u << proto::BENT_NORMAL);
   EXPECT_THAT(parse_buffers({"colour"}).error().message(), HasSubstr("did you mean color?"));
 }
 
 TEST(ImageNames, HaveThreeDigitsAndTheBuffersName) {
   EXPECT_EQ(image_path("out", 12, 0, proto::COLOR), "out/frame-0012/module-000.color.png");
   EXPECT_EQ(image_path("out", 12, 17, proto::POSITION), "out/frame-0012/module-017.position.exr");
+  EXPECT_EQ(image_path("out", 12, 17, proto::BENT_NORMAL), "out/frame-0012/module-017.bent_normal.exr");
   EXPECT_EQ(frame_path("out", 12), "out/frame-0012");
 }
 

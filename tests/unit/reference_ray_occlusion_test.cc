@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "bench/reference/scene_maker.h"
@@ -33,6 +34,8 @@ TEST(RayOcclusion, OfAnOpenPlaneIsNone) {
   for (const auto& found : at(floor_of(10), {0.1, 0, 0.2}, {0, 1, 0}, {1e-3, 1, 1e3})) {
     EXPECT_EQ(found.cosine, 0);
     EXPECT_EQ(found.uniform, 0);
+    EXPECT_EQ(found.open_cosine, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(found.open_uniform, glm::dvec3(0, 1, 0));
   }
 }
 
@@ -54,13 +57,16 @@ TEST(RayOcclusion, AtTheBottomOfAWellIsTheHorizonsSine) {
     const auto found = at(maker, {0, 0, 0}, {0, 1, 0}, {1e6});
     EXPECT_NEAR(found[0].cosine, std::pow(std::sin(h), 2), kTolerance) << h;
     EXPECT_NEAR(found[0].uniform, std::sin(h), kTolerance) << h;
+    // Of sin e: the integrals of 3 sin^2 e cos e and 2 sin e cos e above h.
+    EXPECT_LT(glm::distance(found[0].open_cosine, {0, 1 - std::pow(std::sin(h), 3), 0}), 2 * kTolerance) << h;
+    EXPECT_LT(glm::distance(found[0].open_uniform, {0, 1 - std::pow(std::sin(h), 2), 0}), 2 * kTolerance) << h;
   }
 }
 
 // Directions (theta from the floor's normal, phi) meet a wall at distance d after d / (sin theta cos phi).
 RayOcclusion before_wall(double d, double radius) {
   constexpr int kSteps = 800;
-  RayOcclusion sum;
+  RayOcclusion sum{0, 0, {0, 1, 0}, {0, 1, 0}};
   for (int i = 0; i < kSteps; ++i) {
     const double height = (i + 0.5) / kSteps, r = std::sqrt(1 - height * height);
     for (int j = 0; j < kSteps; ++j) {
@@ -68,6 +74,10 @@ RayOcclusion before_wall(double d, double radius) {
       const double weight = std::max(0.0, 1 - d / toward / radius) / (2.0 * kSteps * kSteps);  // half of all turns
       sum.uniform += weight;
       sum.cosine += 2 * height * weight;
+      // What it hides of the directions: those to both sides along the wall cancel out, and it stands where z is less.
+      const glm::dvec3 direction(0, height, -toward);
+      sum.open_uniform -= 2 * weight * direction;
+      sum.open_cosine -= 3 * height * weight * direction;
     }
   }
   return sum;
@@ -83,6 +93,8 @@ TEST(RayOcclusion, BeforeAWallFallsWithDistanceAndGrowsWithTheRadius) {
       const RayOcclusion expected = before_wall(d, radii[k]);
       EXPECT_NEAR(found[k].cosine, expected.cosine, kTolerance) << d << ", " << radii[k];
       EXPECT_NEAR(found[k].uniform, expected.uniform, kTolerance) << d << ", " << radii[k];
+      EXPECT_LT(glm::distance(found[k].open_cosine, expected.open_cosine), 2 * kTolerance) << d << ", " << radii[k];
+      EXPECT_LT(glm::distance(found[k].open_uniform, expected.open_uniform), 2 * kTolerance) << d << ", " << radii[k];
     }
   }
 }
