@@ -40,7 +40,7 @@ Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, 
 Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
-  gl::Flags flags;
+  gl::Flags flags = inputs.modules.map_flags;
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
                                      {method.normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},
