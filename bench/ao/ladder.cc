@@ -183,7 +183,7 @@ TapCount taps_of(const AoSettings& settings) {
   const auto parameter = [&](const char* name) { return static_cast<int>(settings.parameter(name)); };
   const std::string_view method = settings.method->name;
   const int own = settings.method->normal ? 2 : 1;
-  constexpr int kPointFetches = 5;  // a surface through four pixels, and the pixel itself
+  constexpr int kPointFetches = 4;  // a surface through four pixels
   if (method == "march")
     return {settings.samples * parameter("steps"), own + kPointFetches * settings.samples * parameter("steps")};
   if (settings.method->points) return {settings.samples, own + kPointFetches * settings.samples};

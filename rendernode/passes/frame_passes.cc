@@ -123,6 +123,7 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
 
 Status FramePasses::draw_surfaces(const char* fragment, gl::Flags flags, const Batch& batch, const FrameInputs& in) {
   glBindVertexArray(surface_array_.name());
+  flags.insert(flags.end(), in.modules.map_flags.begin(), in.modules.map_flags.end());
   if (in.modules.has_tables()) flags.emplace_back("PIXEL_TABLE");
   if (in.modules.warp_tables) flags.emplace_back("WARP_TABLE");
   if (in.modules.guard_band_px > 0) flags.emplace_back("GUARD_BAND");

@@ -65,6 +65,15 @@ bool needs_pixel_table(const ModuleCalibration& module) {
   return std::holds_alternative<PinholeMap>(module.map) || std::holds_alternative<GridMap>(module.map);
 }
 
+gl::Flags map_flags(const DisplayCalibration& display, const std::vector<std::uint32_t>& modules) {
+  gl::Flags flags;
+  if (display.optics.screen_radius_m == 0) flags.emplace_back("PLANAR_SCREEN");
+  if (display.optics.diffuser == Diffuser::kLinear) flags.emplace_back("LINEAR_DIFFUSER");
+  const auto is_pinhole = [&](auto k) { return std::holds_alternative<PinholeMap>(display.modules[k].map); };
+  if (std::ranges::none_of(modules, is_pinhole)) flags.emplace_back("NO_PINHOLE");
+  return flags;
+}
+
 void fill_rows(const DisplayCalibration& display, const ModuleCalibration& module, int first, int last, float* out) {
   constexpr float kNowhere = 1e30F;
   for (int row = first; row < last; ++row) {
@@ -141,7 +150,8 @@ GpuModules upload_modules(const DisplayCalibration& display, const std::vector<s
     params.back().surface.w = static_cast<float>(band.screen.height_m);
   }
   params.resize(MODULES_PER_NODE);
-  GpuModules gpu{gl::make_buffer(params), {}, {}, upload_colors(display, modules), band.px};
+  GpuModules gpu{gl::make_buffer(params),         {},      {},
+                 upload_colors(display, modules), band.px, map_flags(display, modules)};
   if (!with_pixels.empty()) {
     gpu.pixel_tables = gl::make_array_texture(GL_RG32F, display.image, static_cast<int>(with_pixels.size()));
   }

@@ -7,6 +7,7 @@
 #include "calibration/display.h"
 #include "rendernode/geometry/warp_table.h"
 #include "rendernode/gl/objects.h"
+#include "rendernode/gl/program.h"
 #include "rendernode/passes/gpu_colors.h"
 #include "shaders/shared/glsl_types.h"
 
@@ -37,6 +38,7 @@ struct GpuModules {
   gl::Texture warp_tables;   // RG32F array: residuals of WarpTable; likewise
   std::optional<GpuColors> colors;
   int guard_band_px = 0;
+  gl::Flags map_flags;  // of shaders that map points: what no module has (lib/optics.glsl, lib/image_map.glsl)
   bool has_tables() const { return static_cast<bool>(pixel_tables); }
 };
 

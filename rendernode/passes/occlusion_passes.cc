@@ -43,7 +43,8 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
   const bool reads_normal = method.normal || plan.bent;
-  gl::Flags flags = flags_of(plan);
+  gl::Flags flags = inputs.modules.map_flags;
+  if (plan.bent) flags.emplace_back("BENT");
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
                                      {reads_normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},

@@ -112,16 +112,16 @@ vec4 stored(ivec3 at) {
 // Position stored at a point of the image: on the surface through four pixels where all of them have one, else that of the pixel it
 // lies in. A sample of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
 vec4 surface_at(vec2 pixel) {
-  ivec2 most = textureSize(positions, 0).xy - 2;
-  vec4 nearest = stored(ivec3(pixel, layer));
-  if (any(lessThan(most, ivec2(0)))) return nearest;
-  ivec2 first = clamp(ivec2(floor(pixel - 0.5)), ivec2(0), most);  // at the border the surface goes on straight for half a pixel
+  ivec2 last = textureSize(positions, 0).xy - 1;
+  ivec2 first = clamp(ivec2(floor(pixel - 0.5)), ivec2(0), max(last - 1, 0));  // at the border the surface goes on straight for half a pixel
+  ivec2 second = min(first + 1, last);
   vec2 share = pixel - 0.5 - vec2(first);
-  ivec3 at = ivec3(first, layer);
-  vec4 above = mix(stored(at), stored(at + ivec3(1, 0, 0)), share.x);
-  vec4 below = mix(stored(at + ivec3(0, 1, 0)), stored(at + ivec3(1, 1, 0)), share.x);
-  vec4 surface = mix(above, below, share.y);
-  return abs(surface.w - 1.0) < 1e-4 ? surface : nearest;
+  vec4 a = stored(ivec3(first, layer)), b = stored(ivec3(second.x, first.y, layer));
+  vec4 c = stored(ivec3(first.x, second.y, layer)), d = stored(ivec3(second, layer));
+  vec4 surface = mix(mix(a, b, share.x), mix(c, d, share.x), share.y);
+  bvec2 is_second = greaterThan(ivec2(pixel), first);
+  vec4 nearest = is_second.y ? (is_second.x ? d : c) : (is_second.x ? b : a);
+  return all(greaterThan(last, ivec2(0))) && abs(surface.w - 1.0) < 1e-4 ? surface : nearest;
 }
 
 // The surface that hides a point from the viewers: the one stored where the point's image is, if that lies in front of it (larger

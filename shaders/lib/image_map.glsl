@@ -1,5 +1,5 @@
 // The calibrated map of a module, screen <-> image: GLSL twins of calibration/maps and rendernode/geometry/warp_table.h. Needs
-// lib/optics.glsl.
+// lib/optics.glsl. NO_PINHOLE: no module has such a map.
 
 #ifdef WARP_TABLE
 layout(binding = UNIT_WARP_TABLE) uniform sampler2DArray warp_table;
@@ -23,18 +23,8 @@ vec2 distort(ModuleParams m, vec2 a) {
   return a * radial + vec2(2.0 * p1 * a.x * a.y + p2 * (r2 + 2.0 * a.x * a.x), p1 * (r2 + 2.0 * a.y * a.y) + 2.0 * p2 * a.x * a.y);
 }
 
-// Pixel (xy) of a screen point; z is 1 where it has one, 0 where not. Points beside the image or the screen have values all the same;
-// beyond the radius where a distortion turns back it goes on straight (z is 0.5): no pixel, but a place for a triangle's corner.
-vec3 image_from_screen(ModuleParams m, vec2 s) {
-  if (m.emitter.w != 1.0) {
-    vec3 q = vec3(dot(m.image_from_screen_0.xyz, vec3(s, 1.0)), dot(m.image_from_screen_1.xyz, vec3(s, 1.0)),
-                  dot(m.image_from_screen_2.xyz, vec3(s, 1.0)));
-    if (!(q.z > 0.0)) return vec3(0.0);
-#ifdef WARP_TABLE
-    if (m.emitter.w == 2.0) return vec3(q.xy / q.z + warp_residual(m, s), 1.0);
-#endif
-    return vec3(q.xy / q.z, 1.0);
-  }
+#ifndef NO_PINHOLE
+vec3 image_of_pinhole(ModuleParams m, vec2 s) {
   vec4 p = vec4(surface_point(m, s), 1.0);
   vec3 q = vec3(dot(m.pinhole_0, p), dot(m.pinhole_1, p), dot(m.pinhole_2, p));
   vec2 a = q.xy / q.z;
@@ -42,6 +32,22 @@ vec3 image_from_screen(ModuleParams m, vec2 s) {
   float r2 = dot(a, a);
   vec2 inner = r2 < m.distortion.w ? a : a * sqrt(m.distortion.w / r2);
   return vec3(m.focal_principal.xy * (distort(m, inner) + (a - inner)) + m.focal_principal.zw, r2 < m.distortion.w ? 1.0 : 0.5);
+}
+#endif
+
+// Pixel (xy) of a screen point; z is 1 where it has one, 0 where not. Points beside the image or the screen have values all the same;
+// beyond the radius where a distortion turns back it goes on straight (z is 0.5): no pixel, but a place for a triangle's corner.
+vec3 image_from_screen(ModuleParams m, vec2 s) {
+#ifndef NO_PINHOLE
+  if (m.emitter.w == 1.0) return image_of_pinhole(m, s);
+#endif
+  vec3 q = vec3(dot(m.image_from_screen_0.xyz, vec3(s, 1.0)), dot(m.image_from_screen_1.xyz, vec3(s, 1.0)),
+                dot(m.image_from_screen_2.xyz, vec3(s, 1.0)));
+  if (!(q.z > 0.0)) return vec3(0.0);
+#ifdef WARP_TABLE
+  if (m.emitter.w == 2.0) return vec3(q.xy / q.z + warp_residual(m, s), 1.0);
+#endif
+  return vec3(q.xy / q.z, 1.0);
 }
 
 bool on_screen(ModuleParams m, vec2 s) { return all(lessThanEqual(abs(2.0 * s), m.screen.xy)); }

@@ -1,12 +1,21 @@
-// The special screen forward and backward: GLSL twins of calibration/optics.h and calibration/curved_screen.h.
+// The special screen forward and backward: GLSL twins of calibration/optics.h and calibration/curved_screen.h. Software rasterisers
+// compute both sides of every condition, so what no module has may be left out: flags PLANAR_SCREEN, LINEAR_DIFFUSER.
 
 // k of the conical and linear diffuser for a screen point at height sy.
 float convergence(ModuleParams m, float sy) {
+#ifdef LINEAR_DIFFUSER
+  return m.observer.y / -m.emitter.z;
+#else
   if (m.observer.z == 0.0) return m.observer.y / -m.emitter.z;
   return length(vec2(m.observer.x - sy, m.observer.y)) / length(vec2(sy - m.emitter.y, m.emitter.z));
+#endif
 }
 
+#ifdef PLANAR_SCREEN
+bool is_curved(ModuleParams m) { return false; }
+#else
 bool is_curved(ModuleParams m) { return m.surface.x != 0.0; }
+#endif
 
 // f of a point (x, z): 0 on a curved screen, growing toward the viewer, constant on concentric arcs; in metres.
 float level_of(ModuleParams m, vec2 q) { return q.y + 0.5 * m.surface.x * dot(q, q); }
