@@ -24,13 +24,13 @@ const std::string kQuick = "pacing { heartbeat_ms: 100 }";
 TEST(LfdRender, WritesImagesAndAReport) {
   const Workbench bench;
   const auto out = bench.folder() / "out";
-  const auto lfd =
-      start_program("lfd", {"render", bench.deployment(kQuick), "--frames", "2", "--buffers",
-                            "color,position,normal,ao,depth", "--out", out, "--module", "1-2", "--roi=0.25,0,0,2,1,1"});
+  const auto lfd = start_program(
+      "lfd", {"render", bench.deployment(kQuick), "--frames", "2", "--buffers",
+              "color,position,normal,ao,depth,bent_normal", "--out", out, "--module", "1-2", "--roi=0.25,0,0,2,1,1"});
   const auto exit = lfd->wait(kPatience);
   ASSERT_TRUE(exit);
   ASSERT_TRUE(exit->succeeded()) << lfd->lines().back();
-  for (const char* name : {"color.png", "position.exr", "normal.exr", "ao.exr", "depth.exr"}) {
+  for (const char* name : {"color.png", "position.exr", "normal.exr", "ao.exr", "depth.exr", "bent_normal.exr"}) {
     EXPECT_TRUE(std::filesystem::exists(out / "frame-0001" / ("module-001." + std::string(name)))) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(out / "frame-0000" / "module-000.color.png"));
