@@ -1,9 +1,11 @@
-// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, blur.
+// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, what neighbours
+// found, blur.
 #include <utility>
 
 #include "base/log.h"
 #include "rendernode/passes/blur_weights.h"
 #include "rendernode/passes/frame_passes.h"
+#include "rendernode/passes/gpu_sharing.h"
 
 namespace lfd {
 namespace {
@@ -33,17 +35,24 @@ Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, 
 Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
+  const bool is_shared = plan.sharing.has_neighbours();
+  if (is_shared) {
+    sharing_ = gl::make_buffer(sharing_params(plan.sharing, inputs.settings.ao));
+    glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_SHARING, sharing_.name());
+  }
   gl::Flags flags;
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
                                      {method.normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},
+                                     {is_shared, "SHARED"},
+                                     {is_shared && inputs.settings.ao.shared_open_air, "OPEN_AIR"},
                                      {method.pyramid != occlusion::Pyramid::kNone, "PYRAMID"}}) {
     if (is_set) flags.emplace_back(flag);
   }
   LFD_TRY(const GLuint name, program({"passes/layers.vert", fmt::format("ao/{}.frag", method.name)}, flags));
   glUseProgram(name);
   const ImageSize size = plan.upsample ? targets.half_size() : targets.size();
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(0));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(plan.share ? 1 : 0));
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
   if (method.normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
@@ -52,16 +61,31 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
                       targets.pyramid().levels()[static_cast<std::size_t>(i)].position.name());
   draw_layers(commands, "ao", timers);
   glViewport(0, 0, targets.size().width, targets.size().height);
-  return plan.upsample ? upsample(commands, targets, timers) : Status();
+  return plan.upsample ? upsample(plan, commands, targets, timers) : Status();
 }
 
-Status FramePasses::upsample(const CommandList& commands, const Targets& targets, PassTimers& timers) {
+Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands, const Targets& targets,
+                             PassTimers& timers) {
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, {}));
   glUseProgram(name);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(plan.share ? 1 : 0));
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
   glBindTextureUnit(UNIT_AO, targets.half_ao());
   draw_layers(commands, "ao_upsample", timers);
+  return {};
+}
+
+Status FramePasses::share(const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
+                          PassTimers& timers) {
+  gl::Flags flags;
+  if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_share.frag"}, flags));
+  glUseProgram(name);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
+  glBindTextureUnit(UNIT_POSITION, targets.position());
+  glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  glBindTextureUnit(UNIT_AO, targets.ao(1));
+  draw_layers(commands, "share", timers);
   return {};
 }
 

@@ -35,7 +35,7 @@ bool Targets::make_textures(const FramePlan& plan) {
   if (plan.normal) make(normal_, GL_RGBA16F);
   if (plan.ao) make(ao_[0], GL_R16F);
   if (plan.upsample) make_of(half_ao_, GL_R16F, half_size());
-  if (plan.ao && plan.blur) make(ao_[1], GL_R16F);
+  if (plan.ao && (plan.blur || plan.share)) make(ao_[1], GL_R16F);
   if (plan.post) make(color_, GL_SRGB8_ALPHA8);
   return made;
 }

@@ -24,7 +24,8 @@ class Targets {
   GLuint position() const { return position_.name(); }
   // RGBA16F, world.
   GLuint normal() const { return normal_.name(); }
-  // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back.
+  // R16F, share of hidden samples; -1 where there is no surface. Where neighbours share it is made in 1 and
+  // gathered in 0. The blur goes from 0 to 1 and back.
   GLuint ao(int i) const { return ao_[i].name(); }
   // The same of half the resolution, rounded up.
   GLuint half_ao() const { return half_ao_.name(); }

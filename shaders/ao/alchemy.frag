@@ -13,7 +13,7 @@ float occlusion(Spot spot, float radius) {
   Disk disk = disk_across(spot, radius, 6.28318530718 * noise().x);
   float sum = 0.0;
   for (int i = 0; i < sample_count(); ++i) {
-    vec4 surface = surface_at_offset(disk, radius * samples[i].xy);
+    vec4 surface = surface_at_offset(disk, radius * sample_of(i).xy);
     if (surface.w == 0.0) continue;
     vec3 v = (surface.xyz - spot.p) / radius;
     sum += max(0.0, dot(v, spot.normal) - beta) / (dot(v, v) + epsilon);

@@ -8,7 +8,7 @@ float occlusion(Spot spot, float radius) {
   vec3 mirror = random_rotation(noise())[2];
   int hidden = 0;
   for (int i = 0; i < sample_count(); ++i) {
-    if (surface_before(spot.m, spot.p + radius * (axes * reflect(samples[i].xyz, mirror))).w != 0.0) ++hidden;
+    if (surface_before(spot.m, spot.p + radius * (axes * reflect(sample_of(i).xyz, mirror))).w != 0.0) ++hidden;
   }
   return float(hidden) / float(sample_count());
 }

@@ -24,6 +24,6 @@ float occlusion(Spot spot, float radius) {
   mat3 frame_of_normal = axes * frame_about(normalize(spot.normal * axes), 6.28318530718 * random.x);  // v * m: m^T v
   float sum = 0.0;
   for (int i = 0; i < sample_count(); ++i)
-    sum += hidden_along(spot, frame_of_normal * samples[i].xyz, radius, fract(samples[i].w + random.y));
+    sum += hidden_along(spot, frame_of_normal * sample_of(i).xyz, radius, fract(sample_of(i).w + random.y));
   return sum / float(sample_count());
 }

@@ -12,7 +12,7 @@ float occlusion(Spot spot, float radius) {
   mat3 turn = axes_of_display() * random_rotation(noise());
   int hidden = 0;
   for (int i = 0; i < sample_count(); ++i) {
-    if (surface_before(spot.m, spot.p + radius * (turn * samples[i].xyz)).w != 0.0) ++hidden;
+    if (surface_before(spot.m, spot.p + radius * (turn * sample_of(i).xyz)).w != 0.0) ++hidden;
   }
   return float(hidden) / float(sample_count());
 }

@@ -31,8 +31,8 @@ float occlusion(Spot spot, float radius) {
   Disk disk = disk_across(spot, radius, 2.0 * pi * noise().x);
   float sum = 0.0;
   for (int i = 0; i + 1 < sample_count(); i += 2) {
-    float one = angle_of(spot, disk, radius * samples[i].xy, radius);
-    float other = angle_of(spot, disk, radius * samples[i + 1].xy, radius);
+    float one = angle_of(spot, disk, radius * sample_of(i).xy, radius);
+    float other = angle_of(spot, disk, radius * sample_of(i + 1).xy, radius);
     sum += one >= 0.0 && other >= 0.0 ? min(one + other, pi) : pi;
   }
   return 1.0 - sum / (pi * float(sample_count() / 2));
