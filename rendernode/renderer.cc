@@ -150,10 +150,10 @@ Status Renderer::draw(const FrameOptions& options) {
     slot.plan = plan_frame({&display_, &modules_, &geometry_.items, &gpu_materials_.facts, gpu_lights_.facts, settings_,
                             options.buffers, shared_inputs_, may_reuse ? &drawn_inputs_ : nullptr, is_software_});
     const CommandList commands = make_commands(slot.plan, geometry_.items, gpu_materials_.facts, options.time_modules);
-    LFD_TRY_STATUS(passes_.submit(slot.plan, commands,
-                                  {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_,
-                                   display_},
-                                  targets_, slot.timers));
+    LFD_TRY_STATUS(
+        passes_.submit(slot.plan, commands,
+                       {gpu_modules_, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_, display_},
+                       targets_, slot.timers));
     LFD_TRY_STATUS(slot.readback.start(options.read_back ? wanted(slot) : std::vector<ReadbackItem>(), display_.image));
     drawn_buffers_.reset();
     drawn_inputs_.clear();

@@ -74,8 +74,8 @@ void FramePasses::bind_inputs(const FramePlan& plan, const CommandList& commands
   frame_params_ = gl::make_buffer(std::span(&params, 1));
   const AoSettings& ao = in.settings.ao;
   const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536},
-                                  noise_origin(in.roi, in.display),
-                                  {ao.least_samples, ao.guard_band_px, 0, 0}};
+                                   noise_origin(in.roi, in.display),
+                                   {ao.least_samples, ao.guard_band_px, 0, 0}};
   ao_params_ = gl::make_buffer(std::span(&ao_params, 1));
   std::vector<glm::vec4> samples =
       plan.sharing.has_neighbours() ? dealt_samples(ao, plan.sharing.parts) : ao.sample_set();

@@ -17,7 +17,9 @@ constexpr int kLongestRun_log2 = 8;  // 16 pixels, each up to 16 times as large 
 
 bool has_set(const AoSettings& ao) { return ao.samples > 0 && ao.method->sample_set != nullptr; }
 
-int parts_of_samples(const AoSettings& ao, int parts) { return std::max(1, std::min(parts, AO_MOST_SAMPLES / ao.samples)); }
+int parts_of_samples(const AoSettings& ao, int parts) {
+  return std::max(1, std::min(parts, AO_MOST_SAMPLES / ao.samples));
+}
 
 // How far a point is from the nearest of those taken; as far as can be where none is.
 float distance2_to(const std::vector<glm::vec4>& taken, const glm::vec4& sample) {

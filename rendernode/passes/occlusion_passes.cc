@@ -1,5 +1,5 @@
-// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, what neighbours
-// found, blur.
+// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, what
+// neighbours found, blur.
 #include <utility>
 
 #include "base/log.h"
@@ -52,7 +52,8 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   LFD_TRY(const GLuint name, program({"passes/layers.vert", fmt::format("ao/{}.frag", method.name)}, flags));
   glUseProgram(name);
   const ImageSize size = plan.upsample ? targets.half_size() : targets.size();
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(plan.share ? 1 : 0));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER,
+                    plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(plan.share ? 1 : 0));
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
   if (method.normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());

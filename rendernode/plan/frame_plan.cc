@@ -133,8 +133,8 @@ class Planner {
 
   // What a layer's picture shows beside its items is the same for all layers.
   void hash_inputs() {
-    const std::string passes = fmt::format("{}{}{}{}{}{}{}{}{}", plan_.upsample, plan_.share, plan_.pyramid_levels, plan_.position,
-                                           plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color);
+    const std::string passes = fmt::format("{}{}{}{}{}{}{}{}{}", plan_.upsample, plan_.share, plan_.pyramid_levels,
+                                           plan_.position, plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color);
     for (std::string& items : plan_.inputs)
       items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
   }

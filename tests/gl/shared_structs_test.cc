@@ -28,7 +28,10 @@ struct Struct {
 
 std::vector<Struct> all_structs() {
   return {
-      {"ao_params", "AoParams", sizeof(shared::AoParams), {LFD_AT(AoParams, radii), LFD_AT(AoParams, noise), LFD_AT(AoParams, options)}},
+      {"ao_params",
+       "AoParams",
+       sizeof(shared::AoParams),
+       {LFD_AT(AoParams, radii), LFD_AT(AoParams, noise), LFD_AT(AoParams, options)}},
       {"color_params",
        "ColorParams",
        sizeof(shared::ColorParams),
@@ -145,8 +148,8 @@ Layout uniform_layout_of(const Struct& one) {
 
 // Those that shaders read from uniform blocks.
 bool is_uniform(const Struct& one) {
-  return std::set<std::string>{"AoParams", "ColorParams", "FrameParams", "ModuleParams",
-                               "SharingParams"}.contains(one.name);
+  return std::set<std::string>{"AoParams", "ColorParams", "FrameParams", "ModuleParams", "SharingParams"}.contains(
+      one.name);
 }
 
 TEST(SharedStructs, AreLaidOutAlikeInBothLanguages) {
