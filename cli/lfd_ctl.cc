@@ -32,9 +32,9 @@ struct Arguments {
   std::vector<double> orientation;
   bool whole = false;
   std::string scene;
-  std::optional<bool> ao_enabled, ao_blur, ao_half, ao_bent;
+  std::optional<bool> ao_enabled, ao_blur, ao_half, ao_bent, ao_open_air;
   std::optional<double> ao_radius_m, ao_sigma_px;
-  std::optional<int> ao_samples, ao_radii, ao_least_samples, ao_guard_band_px;
+  std::optional<int> ao_samples, ao_radii, ao_least_samples, ao_guard_band_px, ao_neighbours;
   std::string ao_method, ao_generator, ao_target, ao_blur_kind;
   std::vector<std::pair<std::string, double>> ao_parameters;
   std::optional<std::uint32_t> ao_seed;
@@ -126,6 +126,8 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   if (arguments.ao_half) ao.set_half_resolution(*arguments.ao_half);
   if (arguments.ao_guard_band_px) ao.set_guard_band_px(*arguments.ao_guard_band_px);
   if (arguments.ao_bent) ao.set_bent_normals(*arguments.ao_bent);
+  if (arguments.ao_neighbours) ao.mutable_shared()->set_neighbours(*arguments.ao_neighbours);
+  if (arguments.ao_open_air) ao.mutable_shared()->set_open_air(*arguments.ao_open_air);
   if (arguments.ao_blur) ao.mutable_blur()->set_enabled(*arguments.ao_blur);
   if (arguments.ao_seed) ao.set_seed(*arguments.ao_seed);
   if (!arguments.ao_curve.empty()) {
@@ -223,6 +225,9 @@ void add_ao_options(CLI::App& command, Arguments& a) {
       ->check(whole_number_within(0, 1024));
   add_switch(command, "--bent-normals", "--plain-normals", a.ao_bent,
              "Light surfaces by their mean open direction, of methods that have directions");
+  command.add_option("--neighbours", a.ao_neighbours, "Modules to each side whose findings are shared (0: none)")
+      ->check(whole_number_within(0, 8));
+  add_switch(command, "--open-air", "--no-open-air", a.ao_open_air, "What a neighbour sees in the air hides nothing");
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
   command.add_option("--seed", a.ao_seed, "Of the samples");
   add_numbers(command, "--curve", a.ao_curve, "A,B,C", "Post curve: ao' = 1 - clamp(B ((1 - ao) + A), 0, 1)^C");

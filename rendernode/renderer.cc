@@ -179,9 +179,9 @@ Result<FramePlan> Renderer::submit(const FrameOptions& options, PassTimers& time
   const CommandList commands = make_commands(made, geometry_.items, gpu_materials_.facts, options.time_modules);
   const DrawnModules& drawn = made.guard_band_px > 0 ? *banded_ : *own_;
   if (targets_.size() != drawn.display.image) targets_ = Targets(drawn.display.image, targets_.layers());
-  LFD_TRY_STATUS(passes_.submit(made, commands,
-                                {drawn.gpu, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_},
-                                targets_, timers));
+  LFD_TRY_STATUS(passes_.submit(
+      made, commands, {drawn.gpu, gpu_materials_, gpu_geometry_, gpu_lights_, roi_, settings_, limits_, drawn.display},
+      targets_, timers));
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "rendernode/passes/gpu_sharing.h"
 #include "rendernode/passes/scissor.h"
 
 namespace lfd {
@@ -69,14 +70,16 @@ Result<GLuint> FramePasses::program(const std::vector<std::string>& stages, cons
   return programs_.emplace(key, std::move(made)).first->second.name();
 }
 
-void FramePasses::bind_inputs(const CommandList& commands, const FrameInputs& in) {
+void FramePasses::bind_inputs(const FramePlan& plan, const CommandList& commands, const FrameInputs& in) {
   const shared::FrameParams params = frame_params(in, in.lights.count);
   frame_params_ = gl::make_buffer(std::span(&params, 1));
   const AoSettings& ao = in.settings.ao;
   const shared::AoParams ao_params{{ao.radius_in_world_m(in.roi.diagonal_m()), ao.radii, ao.samples, ao.seed % 65536},
+                                   noise_origin(in.roi, in.display),
                                    {ao.least_samples, in.modules.guard_band_px, 0, 0}};
   ao_params_ = gl::make_buffer(std::span(&ao_params, 1));
-  std::vector<glm::vec4> samples = ao.sample_set();
+  std::vector<glm::vec4> samples =
+      plan.sharing.has_neighbours() ? dealt_samples(ao, plan.sharing.parts) : ao.sample_set();
   samples.resize(AO_MOST_SAMPLES);
   ao_samples_ = gl::make_buffer(samples);
   std::vector<float> parameters(ao.parameters.begin(), ao.parameters.end());
@@ -109,13 +112,14 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
                            Targets& targets, PassTimers& timers) {
   LFD_TRY_STATUS(targets.prepare(plan));
   if (commands.batches.empty()) return {};
-  bind_inputs(commands, inputs);
+  bind_inputs(plan, commands, inputs);
   glViewport(0, 0, targets.size().width, targets.size().height);
   if (plan.z_prepass) LFD_TRY_STATUS(z_prepass(plan, commands, inputs, targets, timers));
   LFD_TRY_STATUS(gbuffer(plan, commands, inputs, targets, timers));
   glDisable(GL_DEPTH_TEST);
   if (plan.pyramid_levels > 0) LFD_TRY_STATUS(pyramid(plan, commands, targets, timers));
   if (plan.ao) LFD_TRY_STATUS(ambient_occlusion(plan, commands, inputs, targets, timers));
+  if (plan.share) LFD_TRY_STATUS(share(plan, commands, inputs, targets, timers));
   if (plan.blur) LFD_TRY_STATUS(blur(plan, commands, inputs.settings.ao, targets, timers));
   if (plan.post) LFD_TRY_STATUS(post(plan, commands, inputs, targets, timers));
   return {};

@@ -26,6 +26,7 @@ struct FrameInputs {
   const RegionOfInterest& roi;
   const RenderSettings& settings;
   const DepthLimits& limits;
+  const DisplayCalibration& display;
 };
 
 class FramePasses {
@@ -38,7 +39,7 @@ class FramePasses {
 
  private:
   Result<GLuint> program(const std::vector<std::string>& stages, const gl::Flags& flags);
-  void bind_inputs(const CommandList& commands, const FrameInputs& inputs);
+  void bind_inputs(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs);
   Status draw_surfaces(const char* fragment, gl::Flags flags, const Batch& batch, const FrameInputs& inputs);
   Status z_prepass(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, Targets& targets,
                    PassTimers& timers);
@@ -49,6 +50,8 @@ class FramePasses {
                            const Targets& targets, PassTimers& timers);
   Status upsample(const FramePlan& plan, const CommandList& commands, const AoSettings& ao, const Targets& targets,
                   PassTimers& timers);
+  Status share(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
+               PassTimers& timers);
   Status blur(const FramePlan& plan, const CommandList& commands, const AoSettings& ao, const Targets& targets,
               PassTimers& timers);
   Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
@@ -57,7 +60,7 @@ class FramePasses {
 
   std::map<std::string, gl::Program> programs_;
   gl::VertexArray surface_array_, empty_array_;
-  gl::Buffer frame_params_, ao_params_, ao_parameters_, ao_samples_;
+  gl::Buffer frame_params_, ao_params_, ao_parameters_, ao_samples_, sharing_;
 };
 
 // What the shaders read of a frame.

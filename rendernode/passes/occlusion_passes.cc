@@ -1,9 +1,11 @@
-// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, blur.
+// The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, what
+// neighbours found, blur.
 #include <utility>
 
 #include "base/log.h"
 #include "rendernode/passes/blur_weights.h"
 #include "rendernode/passes/frame_passes.h"
+#include "rendernode/passes/gpu_sharing.h"
 #include "rendernode/passes/scissor.h"
 
 namespace lfd {
@@ -45,17 +47,25 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   const bool reads_normal = method.normal || plan.bent;
   gl::Flags flags = inputs.modules.map_flags;
   if (plan.bent) flags.emplace_back("BENT");
+  const bool is_shared = plan.sharing.has_neighbours();
+  if (is_shared) {
+    sharing_ = gl::make_buffer(sharing_params(plan.sharing, inputs.settings.ao));
+    glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_SHARING, sharing_.name());
+  }
   for (const auto& [is_set, flag] : {std::pair{static_cast<bool>(inputs.modules.warp_tables), "WARP_TABLE"},
                                      {reads_normal, "NORMAL"},
                                      {plan.upsample, "HALF_RESOLUTION"},
                                      {plan.guard_band_px > 0, "GUARD_BAND"},
+                                     {is_shared, "SHARED"},
+                                     {is_shared && inputs.settings.ao.shared_open_air, "OPEN_AIR"},
                                      {method.pyramid != occlusion::Pyramid::kNone, "PYRAMID"}}) {
     if (is_set) flags.emplace_back(flag);
   }
   LFD_TRY(const GLuint name, program({"passes/layers.vert", fmt::format("ao/{}.frag", method.name)}, flags));
   glUseProgram(name);
   const ImageSize size = plan.upsample ? targets.half_size() : targets.size();
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(0));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER,
+                    plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(plan.share ? 1 : 0));
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
   if (reads_normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
@@ -75,12 +85,29 @@ Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands,
                              const Targets& targets, PassTimers& timers) {
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, flags_of(plan)));
   glUseProgram(name);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(plan.share ? 1 : 0));
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
   glBindTextureUnit(UNIT_AO, targets.half_ao());
   const int reach = reach_of_blur(ao);
   const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach});
   draw_layers(commands, "ao_upsample", timers);
+  return {};
+}
+
+Status FramePasses::share(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
+                          const Targets& targets, PassTimers& timers) {
+  gl::Flags flags = inputs.modules.map_flags;
+  if (plan.bent) flags.emplace_back("BENT");
+  if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
+  LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_share.frag"}, flags));
+  glUseProgram(name);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
+  glBindTextureUnit(UNIT_POSITION, targets.position());
+  glBindTextureUnit(UNIT_NORMAL, targets.normal());
+  glBindTextureUnit(UNIT_AO, targets.ao(1));
+  const int reach = reach_of_blur(inputs.settings.ao);
+  const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach});
+  draw_layers(commands, "share", timers);
   return {};
 }
 

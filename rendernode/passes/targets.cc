@@ -37,7 +37,7 @@ bool Targets::make_textures(const FramePlan& plan) {
   const GLenum ao_format = bent_ ? GL_RGBA16F : GL_R16F;
   if (plan.ao) make(ao_[0], ao_format);
   if (plan.upsample) make_of(half_ao_, ao_format, half_size());
-  if (plan.ao && plan.blur) make(ao_[1], ao_format);
+  if (plan.ao && (plan.blur || plan.share)) make(ao_[1], ao_format);
   if (plan.post) make(color_, GL_SRGB8_ALPHA8);
   return made;
 }

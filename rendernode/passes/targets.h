@@ -24,7 +24,8 @@ class Targets {
   GLuint position() const { return position_.name(); }
   // RGBA16F, world.
   GLuint normal() const { return normal_.name(); }
-  // R16F, share of hidden samples; -1 where there is no surface. The blur goes from 0 to 1 and back. With bent normals
+  // R16F, share of hidden samples; -1 where there is no surface. Where neighbours share it is made in 1 and
+  // gathered in 0. The blur goes from 0 to 1 and back. With bent normals
   // RGBA16F: g, b and a are the mean open direction in the world, of length 1 where all is open.
   GLuint ao(int i) const { return ao_[i].name(); }
   // The same of half the resolution, rounded up.

@@ -114,6 +114,7 @@ class Planner {
     }
     if (in_.settings.ao.guard_band_px > 0) choose_guard_band();
     plan_.upsample = plan_.ao && in_.settings.ao.half_resolution;
+    choose_sharing();
     plan_.blur = plan_.ao && in_.settings.ao.blur_enabled;
     if (!plan_.blur) leave_out("pass", "blur", plan_.ao ? "switched off" : "there is no ambient occlusion to blur");
 
@@ -135,7 +136,7 @@ class Planner {
     if (!plan_.position) leave_out("target", "position", "nothing reads it");
     plan_.normal = everything_ || in_.buffers.has(proto::NORMAL) || in_.buffers.has(proto::BENT_NORMAL) || plan_.bent ||
                    (lights && in_.lights.need_normal) || (plan_.ao && in_.settings.ao.method->normal) ||
-                   plan_.upsample || (plan_.blur && in_.settings.ao.blur == AoBlur::kGeometry);
+                   plan_.upsample || plan_.share || (plan_.blur && in_.settings.ao.blur == AoBlur::kGeometry);
     if (!plan_.normal) leave_out("target", "normal", "nothing reads it");
     choose_prepass(any, textured);
   }
@@ -151,17 +152,35 @@ class Planner {
     }
   }
 
+  // Everything or not, the same modules share: one that sees nothing has nothing to tell.
+  void choose_sharing() {
+    if (!plan_.ao || in_.settings.ao.shared_neighbours == 0) return;
+    std::vector<bool> sees;
+    for (const std::uint32_t number : *in_.modules) {
+      sees.push_back(std::ranges::any_of(*in_.items, [&](const GeometryItem& item) {
+        return may_be_seen(*in_.display, in_.display->modules[number], item.low, item.high);
+      }));
+    }
+    plan_.sharing = share_among(*in_.display, *in_.modules, sees, in_.settings.ao.shared_neighbours);
+    plan_.share = everything_ || plan_.sharing.has_neighbours();
+    if (plan_.share) return;
+    leave_out("pass", "share",
+              in_.modules->size() == 1 ? "the node has one module" : "no module has a neighbour that sees geometry");
+  }
+
   // What a layer's picture shows beside its items is the same for all layers.
   void hash_inputs() {
     const std::string passes =
-        fmt::format("{}{}{}{}{}{}{}{}{} {}", plan_.upsample, plan_.bent, plan_.pyramid_levels, plan_.position,
-                    plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
+        fmt::format("{}{}{}{}{}{}{}{}{}{} {}", plan_.upsample, plan_.share, plan_.bent, plan_.pyramid_levels,
+                    plan_.position, plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
     for (std::string& items : plan_.inputs)
       items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
   }
 
   void drop_unchanged() {
     const auto is_unchanged = [&](std::uint32_t layer) { return (*in_.drawn)[layer] == plan_.inputs[layer]; };
+    // A picture shows what its neighbours found, of which the blurred pictures in hand know no more.
+    if (plan_.share && *in_.drawn != plan_.inputs) return;
     std::erase_if(plan_.active_layers, [&](std::uint32_t layer) {
       if (!is_unchanged(layer)) return false;
       plan_.unchanged_layers.push_back(layer);

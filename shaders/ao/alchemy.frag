@@ -14,7 +14,7 @@ float occlusion(Spot spot, float radius) {
   float sum = 0.0;
   int count = sample_count(spot);
   for (int i = 0; i < count; ++i) {
-    vec4 surface = surface_at_offset(disk, radius * samples[i].xy);
+    vec4 surface = surface_at_offset(disk, radius * sample_of(i).xy);
     if (surface.w == 0.0) continue;
     vec3 v = (surface.xyz - spot.p) / radius;
     sum += max(0.0, dot(v, spot.normal) - beta) / (dot(v, v) + epsilon);

@@ -9,7 +9,7 @@ float occlusion(Spot spot, float radius) {
   int hidden = 0;
   int count = sample_count(spot);
   for (int i = 0; i < count; ++i) {
-    vec3 offset = axes * reflect(samples[i].xyz, mirror);
+    vec3 offset = axes * reflect(sample_of(i).xyz, mirror);
     bool is_hidden = surface_before(spot.m, spot.p + radius * offset).w != 0.0;
     if (is_hidden) ++hidden;
     if (dot(offset, spot.normal) > 0.0) see(normalize(offset), is_hidden ? 0.0 : 1.0);

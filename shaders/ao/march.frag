@@ -25,8 +25,8 @@ float occlusion(Spot spot, float radius) {
   float sum = 0.0;
   int count = sample_count(spot);
   for (int i = 0; i < count; ++i) {
-    vec3 direction = frame_of_normal * samples[i].xyz;
-    float hidden = hidden_along(spot, direction, radius, fract(samples[i].w + random.y));
+    vec3 direction = frame_of_normal * sample_of(i).xyz;
+    float hidden = hidden_along(spot, direction, radius, fract(sample_of(i).w + random.y));
     sum += hidden;
     see(direction, 1.0 - hidden);
   }

@@ -10,11 +10,18 @@
 #include "lib/sampling.glsl"
 #include "lib/ao_value.glsl"
 #include "ao/open_directions.glsl"
+#ifdef SHARED
+#include "shared/sharing_params.glsl"
+#include "lib/surface_noise.glsl"
+#endif
 
 layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameParams frame; };
 layout(std140, binding = BINDING_AO) uniform Ao { AoParams ao; };
 layout(std140, binding = BINDING_AO_SAMPLES) uniform AoSamples { vec4 samples[AO_MOST_SAMPLES]; };
+#ifdef SHARED
+layout(std140, binding = BINDING_SHARING) uniform Sharing { SharingParams sharing[MODULES_PER_NODE]; };
+#endif
 layout(binding = UNIT_POSITION) uniform sampler2DArray positions;
 #ifdef NORMAL
 layout(binding = UNIT_NORMAL) uniform sampler2DArray normals;
@@ -48,8 +55,20 @@ ivec2 own_pixel() {
 }
 vec2 own_place() { return vec2(own_pixel()) + 0.5; }
 
+#ifdef SHARED
+vec3 noise_of_point;  // that is shaded
+
+// Three numbers in [0, 1): of the point, and what this module's differ by from its neighbours'.
+vec3 noise() { return fract(noise_of_point + sharing[layer].turn.xyz); }
+
+// The i-th sample of this module's own part of the set that it has together with its neighbours.
+vec4 sample_of(int i) { return samples[int(sharing[layer].window.z) + i]; }
+#else
 // Three numbers in [0, 1) of this pixel of this module, whatever its guard band.
 vec3 noise() { return noise_of_pixel(uvec2(own_pixel() - int(ao.options.y)), uint(modules[layer].tangential.z), uint(ao.radii.w)); }
+
+vec4 sample_of(int i) { return samples[i]; }
+#endif
 
 // physical point of a world point counted from the ROI centre
 vec3 physical_from_world(vec3 p) {
@@ -111,26 +130,49 @@ vec4 stored(ivec3 at) {
 
 // Position stored at a point of the image: on the surface through four pixels where all of them have one, else that of the pixel it
 // lies in. A sample of a slanted plane so meets the plane on its own line, not on that of a pixel up to half a pixel away.
-vec4 surface_at(vec2 pixel) {
+vec4 surface_at(int of_layer, vec2 pixel) {
   ivec2 last = textureSize(positions, 0).xy - 1;
   ivec2 first = clamp(ivec2(floor(pixel - 0.5)), ivec2(0), max(last - 1, 0));  // at the border the surface goes on straight for half a pixel
   ivec2 second = min(first + 1, last);
   vec2 share = pixel - 0.5 - vec2(first);
-  vec4 a = stored(ivec3(first, layer)), b = stored(ivec3(second.x, first.y, layer));
-  vec4 c = stored(ivec3(first.x, second.y, layer)), d = stored(ivec3(second, layer));
+  vec4 a = stored(ivec3(first, of_layer)), b = stored(ivec3(second.x, first.y, of_layer));
+  vec4 c = stored(ivec3(first.x, second.y, of_layer)), d = stored(ivec3(second, of_layer));
   vec4 surface = mix(mix(a, b, share.x), mix(c, d, share.x), share.y);
   bvec2 is_second = greaterThan(ivec2(pixel), first);
   vec4 nearest = is_second.y ? (is_second.x ? d : c) : (is_second.x ? b : a);
   return all(greaterThan(last, ivec2(0))) && abs(surface.w - 1.0) < 1e-4 ? surface : nearest;
 }
 
+#ifdef OPEN_AIR
+// Whether a neighbour sees a physical point in the air, before the surface stored where it has its image, or where there is none. The
+// outermost neighbour of each side is asked: they look most past whatever hides it, and asking all costs half as much again for little
+// (march without a thickness, armadillo: error 0.0107 without, 0.0067 with two, 0.0063 with eight).
+bool is_seen_in_air(vec3 p_in_physical) {
+  int first = int(sharing[layer].window.x), last = int(sharing[layer].window.y);
+  for (int rank = first; rank <= last; rank += max(last - first, 1)) {
+    int other = int(sharing[rank].rank.x);
+    if (other == layer) continue;
+    vec4 q = image_from_physical(modules[other], p_in_physical);
+    if (q.w == 0.0) continue;
+    vec4 surface = surface_at(other, q.xy);
+    if (surface.w == 0.0 || depth_of(modules[other], physical_from_world(surface.xyz)) < q.z) return true;
+  }
+  return false;
+}
+#endif
+
 // The surface that hides a point from the viewers: the one stored where the point's image is, if that lies in front of it (larger
 // depth). w 0 where none does; points without an image or a surface are in the open.
 vec4 surface_before(ModuleParams m, vec3 p) {
-  vec4 q = image_from_physical(m, physical_from_world(p));
+  vec3 p_in_physical = physical_from_world(p);
+  vec4 q = image_from_physical(m, p_in_physical);
   if (q.w == 0.0) return vec4(0.0);
-  vec4 surface = surface_at(q.xy);
-  return surface.w != 0.0 && depth_of(m, physical_from_world(surface.xyz)) > q.z ? surface : vec4(0.0);
+  vec4 surface = surface_at(layer, q.xy);
+  if (surface.w == 0.0 || !(depth_of(m, physical_from_world(surface.xyz)) > q.z)) return vec4(0.0);
+#ifdef OPEN_AIR
+  if (is_seen_in_air(p_in_physical)) return vec4(0.0);
+#endif
+  return surface;
 }
 
 // Unit vector in the world along the pixel's own line, to the viewers.
@@ -177,6 +219,9 @@ void main() {
   Spot spot = Spot(modules[layer], p.xyz, vec3(0.0));
 #ifdef NORMAL
   spot.normal = normalize(texelFetch(normals, at, 0).xyz);
+#endif
+#ifdef SHARED
+  noise_of_point = surface_noise(p.xyz, ao.noise, pixel_size_at(spot.m, frame, physical_from_world(p.xyz)));
 #endif
   float radius = ao.radii.x;
   float most = 0.0;

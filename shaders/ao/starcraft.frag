@@ -8,7 +8,7 @@ float occlusion(Spot spot, float radius) {
   float sum = 0.0;
   int count = sample_count(spot);
   for (int i = 0; i < count; ++i) {
-    vec3 offset = turn * samples[i].xyz;
+    vec3 offset = turn * sample_of(i).xyz;
     if (dot(offset, spot.normal) < 0.0) offset = -offset;
     vec3 point = spot.p + radius * offset;
     vec4 surface = surface_before(spot.m, point);

@@ -32,8 +32,8 @@ float occlusion(Spot spot, float radius) {
   float sum = 0.0;
   int count = paired_count(spot);
   for (int i = 0; i + 1 < count; i += 2) {
-    float one = angle_of(spot, disk, radius * samples[i].xy, radius);
-    float other = angle_of(spot, disk, radius * samples[i + 1].xy, radius);
+    float one = angle_of(spot, disk, radius * sample_of(i).xy, radius);
+    float other = angle_of(spot, disk, radius * sample_of(i + 1).xy, radius);
     sum += one >= 0.0 && other >= 0.0 ? min(one + other, pi) : pi;
   }
   return 1.0 - sum / (pi * float(count / 2));

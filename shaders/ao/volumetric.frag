@@ -13,7 +13,7 @@ layout(std140, binding = BINDING_AO_METHOD) uniform Parameters {
 float open_share(Spot spot, Disk disk, vec2 offset, float half_m) {
   vec2 pixel = own_place() + disk.pixels_per_m * offset;
   if (any(lessThan(pixel, vec2(0.0))) || any(greaterThanEqual(pixel, vec2(textureSize(positions, 0).xy)))) return -1.0;
-  vec4 surface = surface_at(pixel);
+  vec4 surface = surface_at(layer, pixel);
   return surface.w == 0.0 ? -1.0 : (half_m - dot(surface.xyz - spot.p, disk.view)) / (2.0 * half_m);
 }
 
@@ -24,8 +24,8 @@ float occlusion(Spot spot, float radius) {
   float open = 0.0, whole = 0.0;
   int count = paired_count(spot);
   for (int i = 0; i + 1 < count; i += 2) {
-    float half_m = radius * sqrt(max(1.0 - samples[i].w * samples[i].w, 1e-6));
-    vec2 share = vec2(open_share(spot, disk, radius * samples[i].xy, half_m), open_share(spot, disk, radius * samples[i + 1].xy, half_m));
+    float half_m = radius * sqrt(max(1.0 - sample_of(i).w * sample_of(i).w, 1e-6));
+    vec2 share = vec2(open_share(spot, disk, radius * sample_of(i).xy, half_m), open_share(spot, disk, radius * sample_of(i + 1).xy, half_m));
     bvec2 believed = bvec2(is_believed(share.x), is_believed(share.y));
     float both = believed.x && believed.y ? share.x + share.y : 1.0;  // one and its complement, or twice half
     open += half_m * both;

@@ -19,5 +19,6 @@ using uint = std::uint32_t;
 #include "shaders/shared/material_params.glsl"
 #include "shaders/shared/module_params.glsl"
 #include "shaders/shared/primitive_plane.glsl"
+#include "shaders/shared/sharing_params.glsl"
 
 }  // namespace lfd::shared

@@ -28,7 +28,10 @@ struct Struct {
 
 std::vector<Struct> all_structs() {
   return {
-      {"ao_params", "AoParams", sizeof(shared::AoParams), {LFD_AT(AoParams, radii)}},
+      {"ao_params",
+       "AoParams",
+       sizeof(shared::AoParams),
+       {LFD_AT(AoParams, radii), LFD_AT(AoParams, noise), LFD_AT(AoParams, options)}},
       {"color_params",
        "ColorParams",
        sizeof(shared::ColorParams),
@@ -72,6 +75,10 @@ std::vector<Struct> all_structs() {
        sizeof(shared::PrimitivePlane),
        {LFD_AT(PrimitivePlane, normal_offset), LFD_AT(PrimitivePlane, range), LFD_AT(PrimitivePlane, inside_0),
         LFD_AT(PrimitivePlane, inside_1)}},
+      {"sharing_params",
+       "SharingParams",
+       sizeof(shared::SharingParams),
+       {LFD_AT(SharingParams, window), LFD_AT(SharingParams, turn), LFD_AT(SharingParams, rank)}},
   };
 }
 
@@ -141,7 +148,8 @@ Layout uniform_layout_of(const Struct& one) {
 
 // Those that shaders read from uniform blocks.
 bool is_uniform(const Struct& one) {
-  return std::set<std::string>{"AoParams", "ColorParams", "FrameParams", "ModuleParams"}.contains(one.name);
+  return std::set<std::string>{"AoParams", "ColorParams", "FrameParams", "ModuleParams", "SharingParams"}.contains(
+      one.name);
 }
 
 TEST(SharedStructs, AreLaidOutAlikeInBothLanguages) {
@@ -181,7 +189,7 @@ TEST(SharedStructs, BindingsAreGivenOutOnce) {
       EXPECT_TRUE(given.insert((*found)[1].str() + " " + (*found)[2].str()).second) << found->str();
     }
   }
-  EXPECT_EQ(count, 19U);
+  EXPECT_EQ(count, 20U);
 }
 
 }  // namespace
