@@ -47,15 +47,15 @@ std::size_t most_texels() {
   return static_cast<std::size_t>(std::max(most, 0));
 }
 
-Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth) {
+Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth, GLint level) {
   Framebuffer framebuffer = make_framebuffer();
   std::vector<GLenum> draw_buffers;
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const GLenum attachment = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
     draw_buffers.push_back(colors[i] != 0 ? attachment : GL_NONE);
-    if (colors[i] != 0) glNamedFramebufferTexture(framebuffer.name(), attachment, colors[i], 0);
+    if (colors[i] != 0) glNamedFramebufferTexture(framebuffer.name(), attachment, colors[i], level);
   }
-  if (depth != 0) glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth, 0);
+  if (depth != 0) glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth, level);
   if (draw_buffers.empty()) draw_buffers.push_back(GL_NONE);
   glNamedFramebufferDrawBuffers(framebuffer.name(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
   const GLenum status = glCheckNamedFramebufferStatus(framebuffer.name(), GL_DRAW_FRAMEBUFFER);

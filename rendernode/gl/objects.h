@@ -20,8 +20,9 @@ Texture make_array_texture(GLenum internal_format, ImageSize size, int layers, i
 Texture make_buffer_texture(GLenum internal_format, const Buffer& buffer);
 std::size_t most_texels();
 
-// A framebuffer over all layers of these array textures: color attachment i is colors[i]; depth may be 0.
-Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth);
+// A framebuffer over all layers of a mip level of these array textures: color attachment i is colors[i]; depth may be
+// 0.
+Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth, GLint level = 0);
 
 // A buffer with this content; never of size 0 (GL refuses that).
 template <class T>

@@ -1,5 +1,6 @@
 // The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, what
 // neighbours found, blur.
+#include <algorithm>
 #include <utility>
 
 #include "base/log.h"
@@ -14,6 +15,7 @@ namespace {
 gl::Flags flags_of(const FramePlan& plan) { return plan.bent ? gl::Flags{"BENT"} : gl::Flags{}; }
 
 constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;  // uniform locations of both blurs
+constexpr GLint kFinerMip = 1, kFinerSize = 2;                        // of the pyramid's passes
 
 // How far a blur looks to each side, pixels.
 int reach_of_blur(const AoSettings& ao) {
@@ -28,14 +30,18 @@ Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, 
   const char* fragment = plan.pyramid_factor == 3 ? "passes/pyramid_average.frag" : "passes/pyramid_pick.frag";
   LFD_TRY(const GLuint name, program({"passes/layers.vert", fragment}, {}));
   glUseProgram(name);
-  GLuint finer = targets.position();
+  glBindTextureUnit(UNIT_POSITION, targets.position());
+  ImageSize finer = targets.size();
   for (int i = 0; i < plan.pyramid_levels; ++i) {
     const PositionPyramid::Level& level = targets.pyramid().levels()[static_cast<std::size_t>(i)];
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, level.framebuffer.name());
     glViewport(0, 0, level.size.width, level.size.height);
-    glBindTextureUnit(UNIT_POSITION, finer);
+    glUniform1i(kFinerMip, std::max(0, i - 1));
+    glUniform2i(kFinerSize, finer.width, finer.height);
     draw_layers(commands, "pyramid", timers);
-    finer = level.position.name();
+    glTextureBarrier();  // the next level reads another mip level of the texture that it writes
+    glBindTextureUnit(UNIT_POSITION, targets.pyramid().position());
+    finer = level.size;
   }
   glViewport(0, 0, targets.size().width, targets.size().height);
   return {};
@@ -69,9 +75,7 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
   if (reads_normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
-  for (int i = 0; i < plan.pyramid_levels; ++i)
-    glBindTextureUnit(UNIT_PYRAMID + static_cast<GLuint>(i),
-                      targets.pyramid().levels()[static_cast<std::size_t>(i)].position.name());
+  if (plan.pyramid_levels > 0) glBindTextureUnit(UNIT_PYRAMID, targets.pyramid().position());
   {
     const int reach = reach_of_blur(inputs.settings.ao);
     const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach}, plan.upsample);

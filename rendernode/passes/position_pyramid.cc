@@ -1,32 +1,47 @@
 // Textures of the pyramid.
 #include "rendernode/passes/position_pyramid.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/log.h"
 #include "rendernode/gl/memory.h"
 
 namespace lfd {
+namespace {
+
+ImageSize divided(ImageSize size, int factor) {
+  return {(size.width + factor - 1) / factor, (size.height + factor - 1) / factor};
+}
+
+// The smallest size of a mip level 0 of which every further one, half as large and rounded down, holds its level.
+ImageSize size_for(const std::vector<PositionPyramid::Level>& levels) {
+  ImageSize size{1, 1};
+  for (std::size_t mip = 0; mip < levels.size(); ++mip) {
+    size.width = std::max(size.width, levels[mip].size.width << mip);
+    size.height = std::max(size.height, levels[mip].size.height << mip);
+  }
+  return size;
+}
+
+}  // namespace
 
 Status PositionPyramid::prepare(int factor, int levels, ImageSize full, int layers) {
   if (factor == factor_ && static_cast<int>(levels_.size()) >= levels) return {};
-  if (factor != factor_) levels_.clear();
+  *this = PositionPyramid();
   factor_ = factor;
-  while (static_cast<int>(levels_.size()) < levels) {
-    const ImageSize before = levels_.empty() ? full : levels_.back().size;
-    Level level{{(before.width + factor - 1) / factor, (before.height + factor - 1) / factor}, {}, {}};
-    level.position = gl::make_array_texture(GL_RGBA32F, level.size, layers);
-    levels_.push_back(std::move(level));
+  for (ImageSize size = full; static_cast<int>(levels_.size()) < levels;) {
+    size = divided(size, factor);
+    levels_.push_back({size, {}});
   }
+  position_ = gl::make_array_texture(GL_RGBA32F, size_for(levels_), layers, levels);
   if (const Status made = gl::memory_status(fmt::format("a pyramid of {} levels", levels)); !made) {
-    levels_.clear();
+    *this = PositionPyramid();
     return made;
   }
-  for (Level& level : levels_) {
-    if (level.framebuffer) continue;
-    const std::array<GLuint, 1> colors{level.position.name()};
-    level.framebuffer = gl::make_layered_framebuffer(colors, 0);
-  }
+  const std::array<GLuint, 1> colors{position_.name()};
+  for (int mip = 0; mip < levels; ++mip)
+    levels_[static_cast<std::size_t>(mip)].framebuffer = gl::make_layered_framebuffer(colors, 0, mip);
   return {};
 }
 

@@ -8,12 +8,13 @@
 
 namespace lfd {
 
+// All levels lie in one texture, so that neighbours may read different ones: level k, from 1, is its mip level k - 1.
+// These are as large as mip levels are, and so larger than what of them is used.
 class PositionPyramid {
  public:
   // Level 1 and up; the full picture is not one of them.
   struct Level {
-    ImageSize size;        // of the level before, divided by the factor and rounded up
-    gl::Texture position;  // RGBA32F array, as Targets::position()
+    ImageSize size;  // that is used: of the level before, divided by the factor and rounded up
     gl::Framebuffer framebuffer;
   };
 
@@ -21,9 +22,12 @@ class PositionPyramid {
   Status prepare(int factor, int levels, ImageSize full, int layers);
 
   const std::vector<Level>& levels() const { return levels_; }
+  // RGBA32F array, as Targets::position().
+  GLuint position() const { return position_.name(); }
 
  private:
   int factor_ = 0;
+  gl::Texture position_;
   std::vector<Level> levels_;
 };
 

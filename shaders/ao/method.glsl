@@ -28,8 +28,8 @@ layout(binding = UNIT_NORMAL) uniform sampler2DArray normals;
 #endif
 
 #ifdef PYRAMID
-// Positions at lower resolutions; level 0 is `positions`.
-layout(binding = UNIT_PYRAMID) uniform sampler2DArray pyramid[PYRAMID_LEVELS - 1];
+// Positions at lower resolutions: mip level k - 1 is level k of the pyramid. Level 0 is `positions`.
+layout(binding = UNIT_PYRAMID) uniform sampler2DArray pyramid;
 #endif
 
 flat in int layer;
@@ -107,15 +107,10 @@ vec4 surface_of(ivec2 pixel) {
 }
 
 #ifdef PYRAMID
-// The same of a level of the pyramid. (Arrays of samplers are indexed by constants, so that pixels may differ.)
-vec4 surface_of_level(int level, ivec2 pixel) {
-  if (level == 0) return surface_of(pixel);
-  ivec2 size = level == 1 ? textureSize(pyramid[0], 0).xy : level == 2 ? textureSize(pyramid[1], 0).xy
-             : level == 3 ? textureSize(pyramid[2], 0).xy : textureSize(pyramid[3], 0).xy;
+// The same of a level from 1 on; `size` of it is used.
+vec4 surface_of_level(int level, ivec2 pixel, ivec2 size) {
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) return vec4(0.0);
-  ivec3 at = ivec3(pixel, layer);
-  return level == 1 ? texelFetch(pyramid[0], at, 0) : level == 2 ? texelFetch(pyramid[1], at, 0)
-       : level == 3 ? texelFetch(pyramid[2], at, 0) : texelFetch(pyramid[3], at, 0);
+  return texelFetch(pyramid, ivec3(pixel, layer), level - 1);
 }
 #endif
 

@@ -21,7 +21,9 @@ float occlusion(Spot spot, float radius) {
     float share = (float(i) + 0.5) / float(count), angle = 6.28318530718 * turns * share;
     vec2 offset = disk.pixels_per_m * (share * radius * vec2(cos(angle), sin(angle)));
     int level = clamp(int(floor(log2(max(length(offset), 1.0) / kFinestReach_px))) + 1, 0, int(levels) - 1);
-    vec4 surface = surface_of_level(level, ivec2(floor(own_place() + offset)) >> level);
+    ivec2 pixel = ivec2(floor(own_place() + offset));
+    ivec2 size = (textureSize(positions, 0).xy + (1 << level) - 1) >> level;
+    vec4 surface = level == 0 ? surface_of(pixel) : surface_of_level(level, pixel >> level, size);
     vec3 v = (surface.xyz - spot.p) / radius;
     if (surface.w == 0.0 || dot(v, v) > 1.0) continue;
     sum += 2.0 * share * max(0.0, dot(v, spot.normal) - beta) / (dot(v, v) + epsilon);  // 2 share: rings outward are longer

@@ -3,13 +3,15 @@
 #version 450 core
 #include "shared/bindings.glsl"
 
+layout(location = 1) uniform int finer_mip;
+layout(location = 2) uniform ivec2 finer_size;
 layout(binding = UNIT_POSITION) uniform sampler2DArray finer;
 
 flat in int layer;
 layout(location = 0) out vec4 out_position;
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(finer, 0).xy - 1;
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = finer_size - 1;
   ivec2 at = min(2 * pixel + ivec2((pixel.y & 1) ^ 1, (pixel.x & 1) ^ 1), last);
-  out_position = texelFetch(finer, ivec3(at, layer), 0);
+  out_position = texelFetch(finer, ivec3(at, layer), finer_mip);
 }

@@ -24,4 +24,3 @@
 #define UNIT_WARP_TABLE 6
 #define UNIT_PLANES 7
 #define UNIT_PYRAMID 8
-#define PYRAMID_LEVELS 5
