@@ -33,7 +33,7 @@ struct Arguments {
   bool whole = false;
   std::string scene;
   std::optional<bool> ao_enabled, ao_blur, ao_half, ao_bent, ao_open_air;
-  std::optional<double> ao_radius_m, ao_sigma_px;
+  std::optional<double> ao_radius_m, ao_sigma_px, ao_budget_ms;
   std::optional<int> ao_samples, ao_radii, ao_least_samples, ao_guard_band_px, ao_neighbours;
   std::string ao_method, ao_generator, ao_target, ao_blur_kind;
   std::vector<std::pair<std::string, double>> ao_parameters;
@@ -117,6 +117,15 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
     ao.set_method(arguments.ao_method);
     ao.clear_parameter();  // they were another method's
     ao.clear_curve();
+  }
+  if (arguments.ao_budget_ms) {
+    ao.set_budget_ms(*arguments.ao_budget_ms);
+    if (arguments.ao_method.empty()) {  // the nodes choose what belongs to a method
+      ao.clear_method();
+      ao.clear_parameter();
+      ao.clear_curve();
+      ao.clear_samples();
+    }
   }
   for (const auto& [name, value] : arguments.ao_parameters) (*ao.mutable_parameter())[name] = value;
   if (arguments.ao_radius_m) ao.set_radius_m(*arguments.ao_radius_m);
@@ -208,6 +217,11 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   add_switch(command, "--on", "--off", a.ao_enabled, "Switch it on");
   command.add_option("--method", a.ao_method, "How it is computed; parameters and curve are then the method's own")
       ->check(CLI::IsMember(method_names()));
+  command
+      .add_option("--budget", a.ao_budget_ms,
+                  "Milliseconds of GPU time for all modules of a node: without --method every node takes the most "
+                  "accurate settings that it draws in this time (0: no budget)")
+      ->check(number_within(0, 1e6));
   add_parameters(command, a);
   command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)")
       ->check(number_within(0, 1e30));

@@ -25,23 +25,32 @@ std::string roi_text(const proto::RegionOfInterest& roi) {
       vector_text(roi.physical_centre()), vector_text(roi.physical_size()));
 }
 
+std::string method_text(const AoSettings& ao) {
+  if (ao.is_chosen_by_budget()) return fmt::format("every node's own choice for {:g} ms", ao.budget_ms);
+  std::string text(ao.method->name);
+  for (std::size_t i = 0; i < ao.parameters.size(); ++i)
+    text += fmt::format("{} {} {:g}", i == 0 ? ":" : ",", ao.method->parameters[i].name, ao.parameters[i]);
+  return text;
+}
+
+std::string sharing_text(const AoSettings& ao) {
+  if (ao.shared_neighbours == 0) return "no";
+  return fmt::format("over +-{} modules{}", ao.shared_neighbours, ao.shared_open_air ? ", open air" : "");
+}
+
 std::string ao_text(const proto::AmbientOcclusion& message) {
   proto::RenderSettings render;
   *render.mutable_ao() = message;
   const auto settings = read_settings(render);
   if (!settings) return settings.error().message() + "\n";
   const AoSettings& ao = settings->ao;
-  std::string parameters;
-  for (std::size_t i = 0; i < ao.parameters.size(); ++i)
-    parameters += fmt::format("{}{} {:g}", i == 0 ? "" : ", ", ao.method->parameters[i].name, ao.parameters[i]);
   return fmt::format(
-      "occlusion  {}{}\nmethod     {}{}{}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
-      "curve      a {:g}, b {:g}, c {:g}\nblur       {}\nguard band {} px\ntarget     {}\n",
+      "occlusion  {}{}\nmethod     {}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
+      "curve      a {:g}, b {:g}, c {:g}\nblur       {}\nguard band {} px\nshared     {}\ntarget     {}\n",
       !ao.enabled          ? "off"
       : ao.half_resolution ? "on, half resolution"
                            : "on",
-      ao.enabled && ao.bent_normals ? ", bent normals" : "", ao.method->name, parameters.empty() ? "" : ": ",
-      parameters,
+      ao.enabled && ao.bent_normals ? ", bent normals" : "", method_text(ao),
       ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
                       : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
       ao.radii,
@@ -52,7 +61,7 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
       !ao.blur_enabled               ? "off"
       : ao.blur == AoBlur::kGaussian ? fmt::format("Gaussian, sigma {:g} px", ao.blur_sigma_px)
                                      : fmt::format("by geometry, {} taps a side", ao.blur_taps),
-      ao.guard_band_px, name_of(kTargetNames, message.target()));
+      ao.guard_band_px, sharing_text(ao), name_of(kTargetNames, message.target()));
 }
 
 std::string status_table(const proto::Status& status) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <limits>
 
 namespace lfd {
 namespace {
@@ -21,37 +20,22 @@ int parts_of_samples(const AoSettings& ao, int parts) {
   return std::max(1, std::min(parts, AO_MOST_SAMPLES / ao.samples));
 }
 
-// How far a point is from the nearest of those taken; as far as can be where none is.
-float distance2_to(const std::vector<glm::vec4>& taken, const glm::vec4& sample) {
-  float nearest = std::numeric_limits<float>::max();
-  for (const glm::vec4& one : taken) {
-    const glm::vec3 way = glm::vec3(one) - glm::vec3(sample);
-    nearest = std::min(nearest, glm::dot(way, way));
-  }
-  return nearest;
-}
-
 }  // namespace
 
 std::vector<glm::vec4> dealt_samples(const AoSettings& ao, int parts) {
   if (!has_set(ao)) return ao.sample_set();
+  const auto count = static_cast<std::size_t>(ao.samples);
   const auto sets = static_cast<std::size_t>(parts_of_samples(ao, parts));
   AoSettings all = ao;
   all.samples *= static_cast<int>(sets);
-  std::vector<glm::vec4> left = all.sample_set();
-  const auto together = static_cast<std::ptrdiff_t>(ao.samples % 2 == 0 ? 2 : 1);
-  std::vector<std::vector<glm::vec4>> dealt(sets);
-  for (std::size_t part = 0; !left.empty(); part = (part + 1) % sets) {
-    auto best = left.begin();
-    for (auto one = left.begin(); one != left.end(); one += together) {
-      if (distance2_to(dealt[part], *one) > distance2_to(dealt[part], *best)) best = one;
-    }
-    dealt[part].insert(dealt[part].end(), best, best + together);
-    left.erase(best, best + together);
+  const std::vector<glm::vec4> samples = all.sample_set();
+  const std::size_t together = count % 2 == 0 ? 2 : 1;
+  std::vector<glm::vec4> dealt(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t group = i / together, part = group % sets, place = group / sets * together + i % together;
+    dealt[part * count + place] = samples[i];
   }
-  std::vector<glm::vec4> in_order;
-  for (const auto& part : dealt) in_order.insert(in_order.end(), part.begin(), part.end());
-  return in_order;
+  return dealt;
 }
 
 std::vector<shared::SharingParams> sharing_params(const Sharing& sharing, const AoSettings& ao) {

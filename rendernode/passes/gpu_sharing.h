@@ -13,8 +13,8 @@
 namespace lfd {
 
 // The samples of all parts, part by part, of `ao.samples` each: together one set of the method's generator, so that
-// neighbours complete each other; each part for itself is spread as well as the others leave it. Fewer parts than
-// `parts` where the shaders' table is too short. Samples 2i and 2i + 1 of the set stay together: they may be a pair.
+// neighbours complete each other. Fewer parts than `parts` where the shaders' table is too short. Samples 2i and 2i + 1
+// of the set stay together: they may be a pair.
 std::vector<glm::vec4> dealt_samples(const AoSettings& ao, int parts);
 
 // MODULES_PER_NODE entries. Modules differ by their samples or, where the method has no set of them, by what is added

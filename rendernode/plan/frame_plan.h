@@ -73,10 +73,9 @@ struct FramePlan {
   std::vector<std::uint32_t> unchanged_layers;  // layers whose images in hand are still true
   std::vector<std::string> inputs;              // of each layer: a hash of all that its picture depends on
   bool z_prepass = true, position = true, normal = true, ao = true, blur = true, post = true;
-  bool upsample = false;  // ambient occlusion is of half the resolution
-  bool share = false;     // every module gathers what its neighbours found
-  // Among layers that see geometry; filled where the settings ask for it and there is ambient occlusion.
-  Sharing sharing;
+  bool upsample = false;   // ambient occlusion is of half the resolution
+  bool share = false;      // every module gathers what its neighbours found
+  Sharing sharing;         // among layers that see geometry, where the settings ask for it
   bool bent = false;       // it finds mean open directions too
   int pyramid_levels = 0;  // of positions, beside the full picture; 0: the method reads none
   int pyramid_factor = 0;  // how many times smaller each is than the one before

@@ -250,6 +250,71 @@ TEST_F(FramePlanning, AModuleWithColourIsDrawnEvenWhereItSeesNothing) {
   EXPECT_EQ(why(p, "module", "2"), "not left out");
 }
 
+// march's neighbours are told from other surfaces by normals, sphere needs none of its own.
+TEST_F(FramePlanning, NeighboursAreAskedWhereThereAreAny) {
+  lights_ = {};
+  EXPECT_FALSE(plan().share);
+  EXPECT_FALSE(plan().sharing.has_neighbours());
+  EXPECT_EQ(why(plan(), "pass", "share"), "not left out") << "nobody asked for it";
+  settings_.ao.shared_neighbours = 2;
+  const FramePlan p = plan();
+  EXPECT_TRUE(p.share);
+  EXPECT_TRUE(p.normal);
+  EXPECT_EQ(p.sharing.layer_of_rank.size(), 4U);
+  modules_ = {2};
+  EXPECT_FALSE(plan().share);
+  EXPECT_FALSE(plan().normal);
+  EXPECT_EQ(why(plan(), "pass", "share"), "the node has one module");
+  settings_.plan = false;
+  EXPECT_TRUE(plan().share);
+  settings_.plan = true;
+  modules_ = {0, 1, 2, 3};
+  settings_.ao.enabled = false;
+  EXPECT_FALSE(plan().share);
+}
+
+TEST_F(FramePlanning, ModulesThatSeeNothingShareNothing) {
+  settings_.ao.shared_neighbours = 1;
+  add_item({0.7, -0.05, 1.0}, {0.75, 0.05, 1.1});
+  items_.erase(items_.begin());
+  items_[0].material = 0;
+  std::vector<std::uint32_t> seeing;
+  for (const auto k : modules_) {
+    if (may_be_seen(display_, display_.modules[k], items_[0].low, items_[0].high)) seeing.push_back(k);
+  }
+  ASSERT_GT(seeing.size(), 0U);
+  ASSERT_LT(seeing.size(), 4U);
+  const Sharing planned = plan().sharing;
+  EXPECT_EQ(planned.layer_of_rank, seeing);
+  settings_.plan = false;
+  EXPECT_EQ(plan().sharing, planned) << "the pictures are the same";
+  settings_.plan = true;
+  items_[0].low = {50, 50, 0};
+  items_[0].high = {51, 51, 0};
+  settings_.ao.enabled = true;
+  EXPECT_FALSE(plan().share);
+}
+
+// What a module has in hand is blurred: it cannot tell its neighbours what it found.
+TEST_F(FramePlanning, ModulesThatShareAreDrawnAgainTogether) {
+  settings_.ao.shared_neighbours = 1;
+  items_[0].content = "a";
+  add_item({0.7, -0.05, 1.0}, {0.75, 0.05, 1.1});
+  const FramePlan first = plan();
+  drawn_ = &first.inputs;
+  EXPECT_THAT(plan().active_layers, IsEmpty());
+  EXPECT_THAT(plan().unchanged_layers, ElementsAre(0, 1, 2, 3));
+  items_[1].content = "b";
+  const FramePlan moved = plan();
+  EXPECT_THAT(moved.active_layers, ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(moved.unchanged_layers, IsEmpty());
+  settings_.ao.shared_neighbours = 0;
+  const FramePlan alone = plan();
+  drawn_ = &alone.inputs;
+  items_[1].content = "c";
+  EXPECT_LT(plan().active_layers.size(), 4U) << "without sharing only those that see it";
+}
+
 TEST_F(FramePlanning, EverythingLeavesNothingOut) {
   settings_.plan = false;
   items_[0].low = {50, 50, 0};
