@@ -139,7 +139,13 @@ struct Case {
 std::vector<Case> cases() {
   DisplayCalibration conical = display_of(5);
   conical.optics = {Diffuser::kConical, 0.1, 3.0};
-  return {{"all, first and last among them", display_of(12), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, 4},
+  const DisplayCalibration lenses = perturbed(display_of(5), 3);
+  const auto grids = measured(display_of(5), 33, 25, 2, 4), bent = curved(display_of(5), 8, true);
+  LFD_CHECK(grids && bent, "displays that can be made");
+  return {{"lenses", lenses, {0, 1, 2, 3, 4}, 2},
+          {"measured maps", *grids, {0, 1, 2, 3, 4}, 2},
+          {"curved screen", *bent, {0, 1, 2, 3, 4}, 2},
+          {"all, first and last among them", display_of(12), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, 4},
           {"fewer than asked for", display_of(12), {4, 5, 6}, 8},
           {"not consecutive, not sorted", display_of(12), {9, 0, 4, 6, 3}, 1},
           {"a method with neither samples nor directions of its own", display_of(12), {3, 4, 5, 6}, 2, false, "gtao"},
