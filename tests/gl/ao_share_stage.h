@@ -38,7 +38,7 @@ class SharingStage {
     message.mutable_ao()->mutable_blur()->set_enabled(false);
     const RenderSettings settings = *read_settings(message);
     const WarpTables tables = warp_tables(display_, modules_, 0);
-    const GpuModules gpu_modules = upload_modules(display_, modules_, tables);
+    const GpuModules gpu_modules = upload_modules(display_, modules_, tables, {0, display_.screen});
     const DepthLimits limits = depth_limits(display_, settings);
     const EdgeRule rule(display_, modules_, tables, limits, settings.subdivision_px);
     MeshCache meshes;

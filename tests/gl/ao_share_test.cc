@@ -126,6 +126,16 @@ class Twin {
   int each_side_;
 };
 
+// A ball in a wall that the modules at the right see almost from its edge: the pixel that shows one of its points shows
+// others far away.
+SceneData ball_in_grazed_wall() {
+  SceneMaker maker;
+  const auto white = maker.add_material({true});
+  maker.add_mesh(reference::sphere({0.1F, 0, 0.1F}, 0.25F, 16), white);
+  maker.add_quad({-0.1F, -0.4F, 0.4F}, {-0.1F, 0.4F, 0.4F}, {0.1F, 0.4F, -0.4F}, {0.1F, -0.4F, -0.4F}, white);
+  return maker.data();
+}
+
 struct Case {
   const char* name;
   DisplayCalibration display;
@@ -134,17 +144,25 @@ struct Case {
   bool aside = false;  // the scene is so far to the right that some modules do not see it
   const char* method = "march";
   bool half = false;
+  SceneData scene = ball_before_floor();
 };
 
 std::vector<Case> cases() {
   DisplayCalibration conical = display_of(5);
   conical.optics = {Diffuser::kConical, 0.1, 3.0};
-  return {{"all, first and last among them", display_of(12), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, 4},
+  const DisplayCalibration lenses = perturbed(display_of(5), 3);
+  const auto grids = measured(display_of(5), 33, 25, 2, 4), bent = curved(display_of(5), 8, true);
+  LFD_CHECK(grids && bent, "displays that can be made");
+  return {{"lenses", lenses, {0, 1, 2, 3, 4}, 2},
+          {"measured maps", *grids, {0, 1, 2, 3, 4}, 2},
+          {"curved screen", *bent, {0, 1, 2, 3, 4}, 2},
+          {"all, first and last among them", display_of(12), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, 4},
           {"fewer than asked for", display_of(12), {4, 5, 6}, 8},
           {"not consecutive, not sorted", display_of(12), {9, 0, 4, 6, 3}, 1},
           {"a method with neither samples nor directions of its own", display_of(12), {3, 4, 5, 6}, 2, false, "gtao"},
           {"conical", conical, {0, 1, 2, 3, 4}, 2},
           {"half resolution", display_of(12), {3, 4, 5, 6}, 2, false, "march", true},
+          {"grazed", display_of(64), {40, 41, 42, 43, 44}, 2, false, "march", false, ball_in_grazed_wall()},
           {"modules that see nothing", display_of(12), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, 3, true}};
 }
 
@@ -156,7 +174,7 @@ TEST(AoShare, IsTheMeanOfNeighboursOnTheSameSurface) {
       roi.physical_size *= 0.4;
       roi.physical_centre = {1.0, 0.1, 1.2};
     }
-    SharingStage stage(ball_before_floor(), roi, one.display, one.modules);
+    SharingStage stage(one.scene, roi, one.display, one.modules);
     auto ao = march(0.15, one.method == std::string("march") ? 4 : 0, one.each_side);
     ao.set_method(one.method);
     ao.set_half_resolution(one.half);
