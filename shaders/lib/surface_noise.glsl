@@ -17,8 +17,8 @@ float pixel_size_at(ModuleParams m, FrameParams frame, vec3 p_in_physical) {
 
 // Three numbers in [0, 1) of a point counted from the ROI centre, where pixels have this size. Each runs from 0 to 1 along its own axis,
 // over 8 to 16 pixels: a power of two in metres, at most 2^origin.w. The neighbours' pixels, up to half a pixel off, so have turned their
-// samples alike but for 1/16, and still complete each other; a blur sees most of the turns. (Random numbers of cells as small as that
-// differ across their borders, and leave a tenth more error; those of single pixels a fifth.)
+// samples alike but for 1/16, and still complete each other; a blur sees most of the turns. (Error of the armadillo without and with blur:
+// 0.0092 and 0.0058; of random numbers for cells of a pixel's size 0.0103 and 0.0055, for cells of 8 to 16 pixels 0.0091 and 0.0064.)
 vec3 surface_noise(vec3 p, vec4 origin, float pixel_size) {
   int exponent = min((floatBitsToInt(pixel_size) >> 23) - 127 + 4, int(origin.w));
   return fract(ldexp(axes_of_noise * p + origin.xyz, ivec3(-exponent)));
