@@ -1,6 +1,7 @@
 // lfd bench ao: every method of ambient occlusion, error against run time.
 #include <signal.h>
 
+#include <charconv>
 #include <iostream>
 #include <memory>
 
@@ -22,8 +23,11 @@ struct AoArguments {
 
 Result<ImageSize> size_from(const std::string& text) {
   ImageSize size{};
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 || size.height < 1)
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const auto height = width.ptr == end ? width : std::from_chars(width.ptr + 1, end, size.height);
+  if (width.ec != std::errc() || height.ec != std::errc() || *width.ptr != 'x' || height.ptr != end || size.width < 1 ||
+      size.height < 1)
     return Error(fmt::format("--size: \"{}\"; WIDTHxHEIGHT in pixels is meant", text));
   return size;
 }
@@ -43,8 +47,7 @@ Status write_results(const std::filesystem::path& out, const bench::AoTable& tab
   LFD_TRY_STATUS(write_file(out / "ao.json", bench::json_of(table)));
   LFD_TRY_STATUS(write_file(out / "ao-front.textproto", bench::front_text_of(table)));
   for (const std::string& scene : table.scenes()) {
-    const std::string stem = scene.substr(0, scene.find_first_of(". "));
-    LFD_TRY_STATUS(write_file(out / ("ao-" + stem + ".svg"), bench::svg_of(table, scene)));
+    LFD_TRY_STATUS(write_file(out / ("ao-" + bench::stem_of(scene) + ".svg"), bench::svg_of(table, scene)));
   }
   return {};
 }
@@ -103,7 +106,8 @@ void add_bench_ao(CLI::App& bench, int& exit_code) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  ao->add_option("--module", a.options.modules, "Numbers of modules (default: the middle one and the first)")
+  ao->add_option("--module", a.options.modules,
+                 "Numbers of modules (default: the middle one, the first and, for sharing, the last)")
       ->delimiter(',')
       ->allow_extra_args(false);
   ao->add_option("--method", a.options.methods, "Methods (default: all)")

@@ -120,11 +120,12 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
   }
   if (arguments.ao_budget_ms) {
     ao.set_budget_ms(*arguments.ao_budget_ms);
-    if (arguments.ao_method.empty()) {  // the nodes choose what belongs to a method
+    if (*arguments.ao_budget_ms > 0 && arguments.ao_method.empty()) {  // the nodes choose what belongs to a method
       ao.clear_method();
       ao.clear_parameter();
       ao.clear_curve();
       ao.clear_samples();
+      ao.clear_shared();
     }
   }
   for (const auto& [name, value] : arguments.ao_parameters) (*ao.mutable_parameter())[name] = value;

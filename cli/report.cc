@@ -71,6 +71,20 @@ std::size_t modules_without_geometry(const proto::FrameReport& frame) {
   return count;
 }
 
+// With a budget every node chooses for itself; where two take different settings, that shows between their modules.
+std::string unlike_choices(const proto::FrameReport& frame) {
+  const auto settings_of = [](const proto::NodeReport& node) {
+    return node.occlusion_choice().substr(0, node.occlusion_choice().find(": "));
+  };
+  for (const proto::NodeReport& node : frame.node()) {
+    const proto::NodeReport& first = frame.node(0);
+    if (settings_of(node) != settings_of(first))
+      return fmt::format("nodes \"{}\" and \"{}\" chose different ambient occlusion: {}; {}", first.node(), node.node(),
+                         first.occlusion_choice(), node.occlusion_choice());
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string report_json(const Deployment& deployment, const std::string& scene,
@@ -97,6 +111,7 @@ std::vector<std::string> warnings_of(const std::vector<proto::FrameReport>& fram
       explained = explained || node.warning_size() > 0;
       for (const std::string& warning : node.warning()) add(warning);
     }
+    if (const std::string unlike = unlike_choices(frame); !unlike.empty()) add(unlike);
     if (!explained && frame.node_size() > 0 && modules_without_geometry(frame) == modules)
       add("nothing of the scene is seen: no module has any of it in its view");
   }

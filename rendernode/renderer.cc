@@ -29,6 +29,10 @@ int guard_band_px(const RenderSettings& settings) {
   return settings.ao.enabled ? even_guard_band_px(settings.ao.guard_band_px) : 0;
 }
 
+void warn_of(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) log::warn("{}", warning);
+}
+
 }  // namespace
 
 Renderer::Renderer(const gl::Context& context, DisplayCalibration display, std::vector<std::uint32_t> modules)
@@ -106,9 +110,12 @@ Status Renderer::rebuild(const proto::State& state, const Assets& assets) {
   if (rule) rule_ = std::move(rule);
   if (own) {
     own_ = std::move(own);
-    for (const std::string& warning : own_->warnings) log::warn("{}", warning);
+    warn_of(own_->warnings);
   }
-  if (new_band) banded_ = std::move(banded);
+  if (new_band) {
+    banded_ = std::move(banded);
+    if (banded_) warn_of(banded_->warnings);
+  }
   limits_ = limits;
   if (geometry) {
     geometry_ = std::move(*geometry);
@@ -142,10 +149,11 @@ Status Renderer::draw(const FrameOptions& options) {
   if (!state_) return Error("there is no state to draw yet");
   Slot& slot = slots_[static_cast<std::size_t>(next_slot_)];
   const auto start = Clock::now();
-  LFD_TRY_STATUS(choose_occlusion());
+  LFD_TRY_STATUS(choose_occlusion(options));
   slot.options = options;
   slot.roi = roi_;
   slot.ao = settings_.ao;
+  slot.occlusion_choice = occlusion_choice_;
   slot.geometry_ms = std::exchange(geometry_ms_, 0);
   // Frames are collected in order: by then the images of the one that this repeats are there.
   slot.reused = options.reuse && settings_.plan && !state_changed_ && drawn_buffers_ == options.buffers;

@@ -79,14 +79,15 @@ class Renderer {
     FrameOptions options;
     RegionOfInterest roi;
     AoSettings ao;
+    std::string occlusion_choice;
     bool reused = false;
     double geometry_ms = 0;
     double submit_ms = 0;
   };
 
-  // What was chosen for these settings (AmbientOcclusion, serialised) against their budget, and why.
+  // What was chosen for these settings against their budget, and why.
   struct ChosenOcclusion {
-    std::string key;
+    proto::AmbientOcclusion asked;
     AoSettings ao;
     std::string why;
   };
@@ -94,8 +95,10 @@ class Renderer {
   Status rebuild(const proto::State& state, const Assets& assets);
   FramePlan plan(const FrameOptions& options) const;
   Result<FramePlan> submit(const FrameOptions& options, PassTimers& timers);
-  Status choose_occlusion();  // renderer_choice.cc
-  Result<double> time_occlusion(double far_too_slow_ms);
+  // renderer_choice.cc: settings_.ao for a frame like this, where they are chosen by their budget
+  Status choose_occlusion(const FrameOptions& options);
+  Status time_candidates(const proto::AmbientOcclusion& asked, const FrameOptions& timed);
+  Result<double> time_occlusion(const FrameOptions& timed);
   std::string why_nothing_is_seen() const;  // empty: something may be
   std::vector<ReadbackItem> wanted(const Slot& slot) const;
   std::vector<ModuleImage> images_of(const Slot& slot) const;
@@ -124,7 +127,7 @@ class Renderer {
   GpuLights gpu_lights_;
   double geometry_ms_ = 0;
   std::optional<ChosenOcclusion> chosen_;
-  std::string occlusion_choice_;  // for reports; empty without a budget
+  std::string occlusion_choice_;  // for the report of the next frame; empty without a budget
 
   std::array<Slot, 2> slots_;
   int next_slot_ = 0;

@@ -70,7 +70,7 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
   report.set_renderer(description_);
   report.set_version(kVersion);
   report.set_triangles(geometry_.planes.size());
-  report.set_occlusion_choice(occlusion_choice_);
+  report.set_occlusion_choice(slot.occlusion_choice);
   auto* geometry = report.add_pass();
   geometry->set_pass("geometry");
   geometry->set_cpu_ms(slot.geometry_ms);
@@ -92,7 +92,10 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
   }
   if (const std::string why = why_nothing_is_seen(); !why.empty())
     report.add_warning("nothing of the scene is seen: " + why);
-  for (const std::string& warning : own_->warnings) report.add_warning(warning);
+  for (const DrawnModules* drawn : {own_.get(), banded_.get()}) {
+    if (drawn == nullptr) continue;
+    for (const std::string& warning : drawn->warnings) report.add_warning(warning);
+  }
   for (const auto& left : slot.plan.left_out) *report.add_left_out() = left;
   if (geometry_.degenerate_triangles > 0) {
     report.add_warning(

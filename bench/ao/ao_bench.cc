@@ -21,7 +21,7 @@ namespace {
 struct JudgedPlace {
   std::shared_ptr<const ShownScene> scene;
   std::uint32_t module = 0;
-  bool is_middle = true;
+  PlaceKind kind = PlaceKind::kMiddle;
   ReferencePicture reference;
   std::vector<double> px_per_radius;  // by radius
   std::vector<SharedPoint> points;
@@ -41,8 +41,8 @@ std::size_t index_of(const std::vector<double>& radii, double share) {
   return static_cast<std::size_t>(std::ranges::find(radii, share) - radii.begin());
 }
 
-double middle_radius(const AoBenchOptions& options) {
-  std::vector<double> radii = options.radii;
+double middle_of(std::vector<double> radii) {
+  if (radii.empty()) return 0;
   std::ranges::sort(radii);
   return radii[radii.size() / 2];
 }
@@ -63,8 +63,8 @@ class Bench {
     for (JudgedPlace& place : places_) LFD_TRY_STATUS(judge(place));
     const ScalingInputs inputs{context_, options_, *places_.front().scene, places_.front().module, rungs_};
     LFD_TRY(table_.by_radius, scale_radius(inputs, places_.front().reference));
-    LFD_TRY(table_.by_size, scale_size(inputs, middle_radius(options_)));
-    LFD_TRY(table_.sharing, scale_modules(inputs, middle_radius(options_)));
+    LFD_TRY(table_.by_size, scale_size(inputs, middle_of(options_.radii)));
+    LFD_TRY(table_.sharing, scale_modules(inputs, middle_of(options_.radii)));
     return std::move(table_);
   }
 
@@ -80,26 +80,47 @@ class Bench {
     };
     for (const auto& deployment : options_.deployments) LFD_TRY_STATUS(load(deployment, std::nullopt));
     for (const auto& file : options_.scenes) LFD_TRY_STATUS(load(options_.deployments.front(), file));
+    // Rows, fits and files go by scenes' names.
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (stem_of(scenes[i]->name()) == stem_of(scenes[j]->name()))
+          return Error(fmt::format("\"{}\" and \"{}\": scenes whose names begin alike cannot be told apart",
+                                   scenes[j]->name(), scenes[i]->name()));
+      }
+    }
     return scenes;
+  }
+
+  std::vector<std::pair<std::uint32_t, PlaceKind>> modules_of(std::uint32_t count) const {
+    std::vector<std::pair<std::uint32_t, PlaceKind>> modules;
+    for (const std::uint32_t module : options_.modules)
+      modules.emplace_back(module, modules.empty() ? PlaceKind::kMiddle : PlaceKind::kEdge);
+    if (!modules.empty()) return modules;
+    modules.emplace_back(count / 2, PlaceKind::kMiddle);
+    if (count > 1) modules.emplace_back(0, PlaceKind::kEdge);
+    if (count > 2) modules.emplace_back(count - 1, PlaceKind::kOtherEdge);
+    return modules;
   }
 
   Status load_places() {
     LFD_TRY(const auto scenes, load_scenes());
     for (const auto& scene : scenes) {
       const auto count = static_cast<std::uint32_t>(scene->display().modules.size());
-      std::vector<std::uint32_t> modules = options_.modules;
-      if (modules.empty())
-        modules = count > 1 ? std::vector<std::uint32_t>{count / 2, 0} : std::vector<std::uint32_t>{0};
-      for (const std::uint32_t module : modules) {
+      for (const auto& [module, kind] : modules_of(count)) {
         if (module >= count) return Error(fmt::format("module {}: the display has {}", module, count));
-        LFD_TRY_STATUS(add_place(scene, module, module == modules.front()));
+        LFD_TRY_STATUS(add_place(scene, module, kind));
       }
     }
     return {};
   }
 
-  Status add_place(const std::shared_ptr<const ShownScene>& scene, std::uint32_t module, bool is_middle) {
-    JudgedPlace place{scene, module, is_middle, {}, {}, {}};
+  std::vector<double> radii_of(PlaceKind kind) const {
+    if (kind == PlaceKind::kOtherEdge) return {middle_of(options_.radii)};
+    return options_.radii;
+  }
+
+  Status add_place(const std::shared_ptr<const ShownScene>& scene, std::uint32_t module, PlaceKind kind) {
+    JudgedPlace place{scene, module, kind, {}, {}, {}};
     const auto hits = reference::cast_module(scene->intersector(), scene->view(module));
     std::vector<double> radius_m;
     for (const double share : radii_) {
@@ -109,10 +130,12 @@ class Bench {
     LFD_TRY(place.reference, reference_picture(*scene, module, hits, radius_m, options_.rays, options_.out / "cache"));
     if (std::ranges::none_of(place.reference.cosine.front().value, [](float open) { return open >= 0; }))
       return Error(fmt::format("{}: module {} sees nothing of it", scene->name(), module));
-    for (const double share : options_.radii) {
-      const Openness& open = place.reference.cosine[index_of(radii_, share)];
+    for (const double share : radii_of(kind)) {
+      const std::size_t k = index_of(radii_, share);
+      const Openness& open = place.reference.cosine[k];
       const double none = difference(open, all_open(open)).mae;
-      table_.places.push_back({scene->name(), module, share, none, place.reference.cast_ms});
+      table_.places.push_back({scene->name(), scene->display().name, module, kind, scene->display().image, share,
+                               radius_m[k], place.px_per_radius[k], none, place.reference.cast_ms});
     }
     places_.push_back(std::move(place));
     return {};
@@ -122,22 +145,25 @@ class Bench {
 
   std::vector<Rung> rungs_at(const JudgedPlace& place, double share) const {
     std::vector<Rung> rungs;
-    const bool is_study = place.is_middle && share == middle_radius(options_);
+    const bool is_study = place.kind == PlaceKind::kMiddle && share == middle_of(options_.radii);
     std::ranges::copy_if(rungs_, std::back_inserter(rungs),
                          [&](const Rung& rung) { return is_study || rung.use == RungUse::kEverywhere; });
+    if (place.kind == PlaceKind::kOtherEdge)
+      std::erase_if(rungs, [](const Rung& rung) { return rung.settings.shared().neighbours() == 0; });
     return rungs;
   }
 
   MeasureOptions measuring(const JudgedPlace& place, double share, bool resume) const {
-    return {place.reference.radius_m[index_of(radii_, share)], options_.frames, 2000, resume, options_.out / "cache"};
+    return {place.reference.radius_m[index_of(radii_, share)], options_.frames, resume, options_.out / "cache"};
   }
 
   Status draw(JudgedPlace& place) {
     PlaceRenderers renderers(context_, *place.scene, place.module);
     LFD_TRY(place.points, renderers.shared_points());
-    for (const double share : options_.radii) {
+    for (const double share : radii_of(place.kind)) {
       log::info("{}, module {}, radius {}: drawing", place.scene->name(), place.module, share);
       const std::vector<Rung> rungs = rungs_at(place, share);
+      if (rungs.empty()) continue;
       LFD_TRY(const auto seen,
               measure(renderers, *place.scene, place.module, rungs, measuring(place, share, options_.resume)));
       for (std::size_t i = 0; i < rungs.size(); ++i) {
@@ -151,9 +177,10 @@ class Bench {
 
   Status judge(const JudgedPlace& place) {
     PlaceRenderers renderers(context_, *place.scene, place.module);
-    for (const double share : options_.radii) {
+    for (const double share : radii_of(place.kind)) {
       log::info("{}, module {}, radius {}: judging", place.scene->name(), place.module, share);
       const std::vector<Rung> rungs = rungs_at(place, share);
+      if (rungs.empty()) continue;
       // Pictures of all places at once would not fit into memory: they are read again.
       LFD_TRY(const auto seen, measure(renderers, *place.scene, place.module, rungs, measuring(place, share, true)));
       for (std::size_t i = 0; i < rungs.size(); ++i) LFD_TRY_STATUS(add_row(place, share, rungs[i], seen[i]));
@@ -168,7 +195,7 @@ class Bench {
     row.scene = place.scene->name();
     row.display = place.scene->display().name;
     row.module = place.module;
-    row.is_middle = place.is_middle;
+    row.place = place.kind;
     row.image = place.scene->display().image;
     row.radius_share = share;
     row.radius_m = place.reference.radius_m[k];
@@ -187,6 +214,8 @@ class Bench {
     if (const auto curve = fits_.without(row.scene, rung, share)) row.fitted = AoFit{*curve, judge.judge(seen, *curve)};
     row.pixels = difference(judge.cosine, seen.open).pixels;
     row.shared_points = place.points.size();
+    row.mae_over_all = row.judged.mae;
+    if (const auto curve = fits_.without(row.scene, rung)) row.mae_over_all = judge.judge(seen, *curve).mae;
     if (const auto curve = fits_.over_all(rung)) row.curve_over_all = *curve;
     if (rung.is_default) LFD_TRY_STATUS(write_strip(row, judge.cosine, seen));
     table_.rows.push_back(std::move(row));
@@ -194,9 +223,8 @@ class Bench {
   }
 
   Status write_strip(const AoRow& row, const Openness& reference, const Measurement& seen) const {
-    const std::string name =
-        fmt::format("{}-module-{:03}-radius-{:g}-{}.png", row.scene.substr(0, row.scene.find_first_of(". ")),
-                    row.module, row.radius_share, row.rung.method());
+    const std::string name = fmt::format("{}-module-{:03}-radius-{:g}-{}.png", stem_of(row.scene), row.module,
+                                         row.radius_share, row.rung.method());
     return write_png(options_.out / "strips" / name, strip_of(reference, curved(seen.open, row.curve)));
   }
 
@@ -210,6 +238,22 @@ class Bench {
 };
 
 }  // namespace
+
+const char* name_of(PlaceKind place) {
+  return place == PlaceKind::kMiddle ? "middle" : place == PlaceKind::kEdge ? "edge" : "other edge";
+}
+
+const AoJudgement& fitted_or_not(const AoRow& row) { return row.fitted ? row.fitted->judged : row.judged; }
+
+std::string stem_of(const std::string& scene) { return scene.substr(0, scene.find_first_of(". ")); }
+
+double AoTable::middle_radius() const {
+  std::vector<double> radii;
+  for (const AoPlaceFacts& one : places) {
+    if (std::ranges::find(radii, one.radius_share) == radii.end()) radii.push_back(one.radius_share);
+  }
+  return middle_of(radii);
+}
 
 std::vector<std::string> AoTable::scenes() const {
   std::vector<std::string> names;

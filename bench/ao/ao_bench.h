@@ -28,12 +28,18 @@ struct AoBenchOptions {
   int frames = 5;                                  // of each rung, in turn
   int rays = 1024;                                 // of the reference, for each pixel
   std::vector<double> radii{0.01, 0.04, 0.16};     // shares of the ROI diagonal
-  std::vector<std::uint32_t> modules;  // the first counts as the middle; empty: the middle one and the first
-  std::vector<std::string> methods;    // empty: all
+  std::vector<std::uint32_t>
+      modules;  // the first counts as the middle; empty: the middle one, the first and, for sharing, the last
+  std::vector<std::string> methods;                                                 // empty: all
   std::vector<ImageSize> sizes{{256, 192}, {512, 384}, {1024, 768}, {2048, 1536}};  // of the scaling; empty: none
   std::vector<int> module_counts{1, 2, 4, 8, 16, 32, 64};  // of the sharing; more than the display has are left out
   int gpu = -1;                                            // of `lfd-rendernode --list-gpus`; -1: the first that works
 };
+
+// Where a module stands: in the middle of the display, at its edge, or at its other edge, where sharing alone is looked
+// at.
+enum class PlaceKind { kMiddle, kEdge, kOtherEdge };
+const char* name_of(PlaceKind place);  // "middle", "edge", "other edge"
 
 // How near a picture of occlusion comes to the rays, on openness 1 - ao.
 struct AoJudgement {
@@ -52,7 +58,7 @@ struct AoFit {
 struct AoRow {
   std::string scene, display;
   std::uint32_t module = 0;
-  bool is_middle = true;
+  PlaceKind place = PlaceKind::kMiddle;
   ImageSize image;
   double radius_share = 0, radius_m = 0, radius_px = 0;  // of the ROI diagonal; world; mean over the picture
   Rung rung;
@@ -65,16 +71,20 @@ struct AoRow {
   AoJudgement judged;
   std::optional<AoFit> fitted;        // absent where there is no other scene
   occlusion::Curve curve_over_all{};  // fitted on all scenes and radii
+  double mae_over_all = 0;            // with one fitted on the other scenes and all radii; unfitted where there is none
   std::size_t pixels = 0, shared_points = 0;
 
+  bool is_middle() const { return place == PlaceKind::kMiddle; }
   double total_ms() const { return occlusion_ms.median + blur_ms.median; }
 };
 
 // A place, whatever is drawn there.
 struct AoPlaceFacts {
-  std::string scene;
+  std::string scene, display;
   std::uint32_t module = 0;
-  double radius_share = 0;
+  PlaceKind place = PlaceKind::kMiddle;
+  ImageSize image;
+  double radius_share = 0, radius_m = 0, radius_px = 0;
   double mae_of_none = 0;  // of a picture without occlusion
   double cast_ms = 0;      // of the reference, for all radii
 };
@@ -104,7 +114,14 @@ struct AoTable {
   std::vector<SharingRow> sharing;
 
   std::vector<std::string> scenes() const;  // each once
+  double middle_radius() const;             // of those that were drawn, a share of the ROI diagonal; 0: none was
 };
+
+// With the fitted curve, or where there is none unfitted.
+const AoJudgement& fitted_or_not(const AoRow& row);
+
+// Of a scene's name, for files: up to its first point or blank.
+std::string stem_of(const std::string& scene);
 
 // Refuses numbers that are out of range and methods that are not there.
 Status check_options(const AoBenchOptions& options);

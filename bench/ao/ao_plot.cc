@@ -28,15 +28,13 @@ struct Dot {
   bool is_shared;
 };
 
-double error_of(const AoRow& row) { return row.fitted ? row.fitted->judged.mae : row.judged.mae; }
-
 std::vector<Dot> dots_of(const AoTable& table, const std::string& scene, double share) {
   std::vector<Dot> dots;
   for (const AoRow& row : table.rows) {
-    if (row.scene != scene || !row.is_middle || row.radius_share != share || row.rung.is_default) continue;
-    if (!(row.total_ms() > 0) || !(error_of(row) > 0)) continue;
-    dots.push_back(
-        {row.total_ms(), error_of(row), row.rung.method(), row.rung.name, row.rung.settings.shared().neighbours() > 0});
+    if (row.scene != scene || !row.is_middle() || row.radius_share != share || row.rung.is_default) continue;
+    if (!(row.total_ms() > 0) || !(fitted_or_not(row).mae > 0)) continue;
+    dots.push_back({row.total_ms(), fitted_or_not(row).mae, row.rung.method(), row.rung.name,
+                    row.rung.settings.shared().neighbours() > 0});
   }
   std::ranges::sort(dots, {}, &Dot::ms);
   return dots;
@@ -106,18 +104,10 @@ void draw_legend(plots::Svg& svg, const std::vector<std::string>& methods, doubl
   svg.text({left_px + 12, line + 19}, "Pareto front", {});
 }
 
-// Of the radii that were drawn, the middle one.
-double middle_radius(const AoTable& table) {
-  std::vector<double> radii;
-  for (const AoPlaceFacts& place : table.places) radii.push_back(place.radius_share);
-  std::ranges::sort(radii);
-  return radii.empty() ? 0 : radii[radii.size() / 2];
-}
-
 }  // namespace
 
 std::string svg_of(const AoTable& table, const std::string& scene) {
-  const double share = middle_radius(table);
+  const double share = table.middle_radius();
   const std::vector<Dot> dots = dots_of(table, scene, share);
   plots::Svg svg(kWidth, kHeight);
   if (dots.empty()) return svg.finish();
@@ -137,7 +127,12 @@ std::string svg_of(const AoTable& table, const std::string& scene) {
            {.size_px = 15, .is_bold = true});
   svg.text({0.5 * (x.from_px + x.to_px), kHeight - 18}, "GPU time of occlusion and blur, ms of one module",
            {.anchor = plots::Anchor::kMiddle});
-  svg.text({22, 0.5 * (y.from_px + y.to_px)}, "mean absolute error, curve fitted on the other scenes",
+  svg.text({kLeft, 40},
+           fmt::format("{}, {}x{} px, {}, lfd {}", table.rows.front().display, table.rows.front().image.width,
+                       table.rows.front().image.height, table.renderer, table.version),
+           {.size_px = 10, .colour = "#666666"});
+  svg.text({22, 0.5 * (y.from_px + y.to_px)},
+           table.scenes().size() > 1 ? "mean absolute error, curve fitted on the other scenes" : "mean absolute error",
            {.anchor = plots::Anchor::kMiddle, .is_upright = true});
   draw_front(svg, dots, x, y);
   draw_dots(svg, dots, methods, x, y);

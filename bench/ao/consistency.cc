@@ -92,15 +92,20 @@ std::vector<SharedPoint> shared_points(const DisplayCalibration& display, const 
 
 double inconsistent_share(const std::vector<SharedPoint>& points, const Openness& one, const Openness& other) {
   if (points.empty()) return 0;
-  std::size_t differ = 0;
+  std::size_t differ = 0, compared = 0;
   for (const SharedPoint& point : points) {
     double there = 0;
+    bool is_there = one.value[point.pixel] >= 0;
     for (std::size_t k = 0; k < point.other.size(); ++k) {
-      if (point.weight[k] > 0) there += point.weight[k] * other.value[point.other[k]];
+      if (!(point.weight[k] > 0)) continue;
+      is_there = is_there && other.value[point.other[k]] >= 0;
+      there += point.weight[k] * other.value[point.other[k]];
     }
+    if (!is_there) continue;
+    ++compared;
     if (std::abs(there - one.value[point.pixel]) > kInconsistent) ++differ;
   }
-  return static_cast<double>(differ) / static_cast<double>(points.size());
+  return compared == 0 ? 0 : static_cast<double>(differ) / static_cast<double>(compared);
 }
 
 }  // namespace lfd::bench

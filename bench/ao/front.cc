@@ -19,10 +19,10 @@ struct Candidate {
 std::vector<Candidate> candidates_of(const AoTable& table) {
   std::map<std::string, Candidate> found;
   for (const AoRow& row : table.rows) {
-    if (row.rung.use != RungUse::kEverywhere) continue;
+    if (row.rung.use != RungUse::kEverywhere || row.place == PlaceKind::kOtherEdge) continue;
     Candidate& one = found[row.rung.method() + ", " + row.rung.name];
     one.row = &row;
-    one.mae += row.fitted ? row.fitted->judged.mae : row.judged.mae;
+    one.mae += row.mae_over_all;
     one.ratio += row.ratio.median;
     ++one.places;
   }

@@ -4,39 +4,23 @@
 #include <cmath>
 
 namespace lfd::bench {
-namespace {
-
-std::optional<occlusion::Curve> fit(const JointHistogram& histogram, const Rung& rung) {
-  if (histogram.empty()) return std::nullopt;
-  return fit_curve(histogram, curve_of(rung));
-}
-
-}  // namespace
-
 void Fits::add(const std::string& scene, const Rung& rung, double radius_share, const JointHistogram& histogram) {
   seen_[key_of(rung)][radius_share][scene].add(histogram);
 }
 
-std::optional<occlusion::Curve> Fits::without(const std::string& scene, const Rung& rung, double radius_share) const {
+std::optional<occlusion::Curve> Fits::without(const std::string& scene, const Rung& rung,
+                                              std::optional<double> radius_share) const {
   const auto of_rung = seen_.find(key_of(rung));
   if (of_rung == seen_.end()) return std::nullopt;
-  const auto of_radius = of_rung->second.find(radius_share);
-  if (of_radius == of_rung->second.end()) return std::nullopt;
   JointHistogram others;
-  for (const auto& [name, histogram] : of_radius->second) {
-    if (name != scene) others.add(histogram);
-  }
-  return fit(others, rung);
-}
-
-std::optional<occlusion::Curve> Fits::over_all(const Rung& rung) const {
-  const auto of_rung = seen_.find(key_of(rung));
-  if (of_rung == seen_.end()) return std::nullopt;
-  JointHistogram all;
   for (const auto& [radius, scenes] : of_rung->second) {
-    for (const auto& [name, histogram] : scenes) all.add(histogram);
+    if (radius_share && radius != *radius_share) continue;
+    for (const auto& [name, histogram] : scenes) {
+      if (name != scene) others.add(histogram);
+    }
   }
-  return fit(all, rung);
+  if (others.empty()) return std::nullopt;
+  return fit_curve(others, curve_of(rung));
 }
 
 occlusion::Curve curve_of(const Rung& rung) {

@@ -18,11 +18,12 @@ class Fits {
  public:
   void add(const std::string& scene, const Rung& rung, double radius_share, const JointHistogram& histogram);
 
-  // On all scenes but this one; absent where there is none.
-  std::optional<occlusion::Curve> without(const std::string& scene, const Rung& rung, double radius_share) const;
+  // Of pictures of this rung on all scenes but this one, at one radius or at all; absent where there is none.
+  std::optional<occlusion::Curve> without(const std::string& scene, const Rung& rung,
+                                          std::optional<double> radius_share = {}) const;
 
-  // On all scenes, and at all radii.
-  std::optional<occlusion::Curve> over_all(const Rung& rung) const;
+  // On all scenes, at all radii.
+  std::optional<occlusion::Curve> over_all(const Rung& rung) const { return without("", rung); }
 
  private:
   static std::string key_of(const Rung& rung) { return rung.method() + ": " + rung.name; }

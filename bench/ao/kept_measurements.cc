@@ -8,16 +8,19 @@
 #include "base/log.h"
 #include "bench/ao/planes_file.h"
 #include "bench/common/built_commit.h"
+#include "shaders/embedded.h"
 
 namespace lfd::bench {
 namespace {
 
-std::string key_of(const ShownScene& scene, std::uint32_t module, const std::vector<Rung>& rungs,
-                   const MeasureOptions& options) {
+std::string key_of(const KeptMeasurements::Subject& of, const MeasureOptions& options) {
   std::string all;
-  for (const Rung& rung : rungs) all += rung.name + rung.settings.ShortDebugString() + "\n";
-  return fmt::format("{} module {}, radius {}, {} frames, commit {}, scene {}, rungs {}", scene.name(), module,
-                     options.radius_m, options.frames, built_commit(), scene.hash(), content_hash(all));
+  for (const Rung& rung : of.rungs) all += rung.name + rung.settings.ShortDebugString() + "\n";
+  // Commits of sources with changes are alike: pictures are the shaders' first of all.
+  for (const EmbeddedShader& shader : embedded_shaders()) all += shader.source;
+  return fmt::format("{} module {}, radius {}, {} frames by {}, commit {}, scene {}, rungs {}", of.scene.name(),
+                     of.module, options.radius_m, options.frames, of.renderer, built_commit(), of.scene.hash(),
+                     content_hash(all));
 }
 
 void print(std::ostream& out, const std::vector<double>& numbers) {
@@ -36,11 +39,10 @@ bool parse(std::istream& in, std::vector<double>& numbers) {
 
 }  // namespace
 
-KeptMeasurements::KeptMeasurements(const std::filesystem::path& cache, const ShownScene& scene, std::uint32_t module,
-                                   const std::vector<Rung>& rungs, const MeasureOptions& options)
-    : key_(key_of(scene, module, rungs, options)), rungs_(rungs.size()) {
-  times_ = cache / fmt::format("drawn-{}.txt", content_hash(key_));
-  pictures_ = cache / fmt::format("drawn-{}.planes", content_hash(key_));
+KeptMeasurements::KeptMeasurements(const Subject& subject, const MeasureOptions& options)
+    : key_(key_of(subject, options)), rungs_(subject.rungs.size()) {
+  times_ = options.cache / fmt::format("drawn-{}.txt", content_hash(key_));
+  pictures_ = options.cache / fmt::format("drawn-{}.planes", content_hash(key_));
 }
 
 std::optional<std::vector<Measurement>> KeptMeasurements::read() const {

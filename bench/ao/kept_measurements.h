@@ -12,9 +12,16 @@ namespace lfd::bench {
 
 class KeptMeasurements {
  public:
-  // Of these rungs at this place, drawn by this program (its commit) with as many frames.
-  KeptMeasurements(const std::filesystem::path& cache, const ShownScene& scene, std::uint32_t module,
-                   const std::vector<Rung>& rungs, const MeasureOptions& options);
+  // What is measured, and by what.
+  struct Subject {
+    const ShownScene& scene;
+    std::uint32_t module;
+    const std::vector<Rung>& rungs;
+    const std::string& renderer;  // driver and device
+  };
+
+  // Drawn by this program with as many frames.
+  KeptMeasurements(const Subject& subject, const MeasureOptions& options);
 
   // Absent where there is none, or a damaged one.
   std::optional<std::vector<Measurement>> read() const;

@@ -13,8 +13,6 @@ namespace {
 
 using Parameters = std::initializer_list<std::pair<const char*, double>>;
 constexpr const char* kPyramidTable = "Pyramid HBAO, table 1";
-constexpr const char* kFast = "Aalund, performance";
-constexpr const char* kFine = "Aalund, quality";
 
 Rung rung(const char* method, std::string name, Parameters parameters, int samples = 0, const char* origin = "") {
   Rung made{std::move(name), origin, RungUse::kEverywhere, false, {}};
@@ -57,20 +55,49 @@ Rung of_levels(const char* method, int levels, Parameters more = {}) {
   return made;
 }
 
+// Set-ups of Aalund: performance with a blur by geometry of so many taps (table 2), quality without blur and with a
+// curve of its own (table 4).
+Rung of_fast(Rung made, int taps) {
+  made.origin = "Aalund, performance";
+  made.name += ", as in 2013";
+  made.settings.mutable_blur()->set_kind(proto::AmbientOcclusion::Blur::GEOMETRY);
+  made.settings.mutable_blur()->set_taps(taps);
+  return made;
+}
+
+Rung of_fine(Rung made, double a, double b, double c) {
+  made.origin = "Aalund, quality";
+  made.name += ", as in 2013";
+  made.settings.mutable_blur()->set_enabled(false);
+  return with_curve(std::move(made), a, b, c);
+}
+
+void add_set_ups(std::vector<Rung>& all) {
+  all.push_back(of_fast(of_samples("crytek", 24), 3));
+  all.push_back(of_fast(of_samples("starcraft", 15), 2));
+  all.push_back(of_fast(of_directions("hbao", 8, 6), 1));
+  all.push_back(of_fast(of_samples("volumetric", 24), 1));
+  all.push_back(of_fast(of_samples("alchemy", 6), 2));
+  all.push_back(of_fast(of_samples("unreal", 6), 2));
+  all.push_back(of_fine(of_samples("crytek", 200), 0.55, 1, 4));
+  all.push_back(of_fine(of_samples("starcraft", 80), 0, 1.1, 2));
+  all.push_back(of_fine(of_directions("hbao", 80, 6), 0, 1, 3));
+  all.push_back(of_fine(of_samples("volumetric", 40), 0.5, 1, 3));
+  all.push_back(of_fine(of_samples("alchemy", 64), 0, 1, 5));
+  all.push_back(of_fine(of_samples("unreal", 32), 0, 1, 3));
+}
+
 std::vector<Rung> main_rungs() {
   std::vector<Rung> all;
   const auto add = [&](Rung made) { all.push_back(std::move(made)); };
-  for (const int samples : {6, 16, 64}) add(of_samples("alchemy", samples, samples == 6 ? kFast : ""));
-  all.back() = with_curve(of_samples("alchemy", 64, kFine), 0, 1, 5);
-  for (const int samples : {8, 16, 24, 200})
-    add(of_samples("crytek", samples, samples == 24 ? kFast : samples == 200 ? kFine : ""));
+  for (const int samples : {6, 16, 64}) add(of_samples("alchemy", samples));
+  for (const int samples : {8, 16, 64}) add(of_samples("crytek", samples));
   for (const auto& [slices, steps] : {std::pair{1, 3}, {2, 4}, {3, 3}, {3, 6}, {9, 3}, {9, 8}}) {
     for (const bool bitmask : {false, true}) add(of_slices(slices, steps, bitmask));
   }
   add(of_directions("hbao", 4, 4));
-  add(of_directions("hbao", 8, 6, kFast));
+  add(of_directions("hbao", 8, 6));
   for (const int d : {8, 16, 32, 64}) add(of_directions("hbao", d, d * 5 / 4, kPyramidTable));
-  add(with_curve(of_directions("hbao", 80, 6, kFine), 0, 1, 3));
   for (const auto& [directions, steps] : {std::pair{1, 4}, {2, 4}, {4, 4}, {8, 4}, {16, 4}, {32, 4}, {64, 8}})
     add(of_march(directions, steps));
   for (int levels = 1; levels <= 5; ++levels) add(of_levels("pyramid_hbao", levels));
@@ -82,12 +109,10 @@ std::vector<Rung> main_rungs() {
   five.name += ", 5 radii";
   five.settings.set_radii(5);
   add(five);
-  for (const int samples : {8, 15, 32}) add(of_samples("starcraft", samples, samples == 15 ? kFast : ""));
-  add(with_curve(of_samples("starcraft", 80, kFine), 0, 1.1, 2));
-  for (const int samples : {6, 12, 32})
-    add(of_samples("unreal", samples, samples == 6 ? kFast : samples == 32 ? kFine : ""));
-  for (const int samples : {8, 16, 24}) add(of_samples("volumetric", samples, samples == 24 ? kFast : ""));
-  add(with_curve(of_samples("volumetric", 40, kFine), 0.5, 1, 3));
+  for (const int samples : {8, 16, 32, 80}) add(of_samples("starcraft", samples));
+  for (const int samples : {6, 12, 32}) add(of_samples("unreal", samples));
+  for (const int samples : {8, 16, 40}) add(of_samples("volumetric", samples));
+  add_set_ups(all);
   return all;
 }
 
@@ -182,23 +207,21 @@ std::vector<Rung> ladder(const std::vector<std::string>& methods) {
 TapCount taps_of(const AoSettings& settings) {
   const auto parameter = [&](const char* name) { return static_cast<int>(settings.parameter(name)); };
   const std::string_view method = settings.method->name;
-  const int own = settings.method->normal ? 2 : 1;
-  constexpr int kPointFetches = 4;  // a surface through four pixels
-  if (method == "march")
-    return {settings.samples * parameter("steps"), own + kPointFetches * settings.samples * parameter("steps")};
-  if (settings.method->points) return {settings.samples, own + kPointFetches * settings.samples};
-  if (method == "hbao")
-    return {parameter("directions") * parameter("steps"), own + parameter("directions") * parameter("steps")};
-  if (method == "pyramid_hbao") {
-    const int taps = parameter("levels") * parameter("directions") * parameter("steps");
-    return {taps, own + taps};
-  }
-  if (method == "gtao") {
-    const int taps = 2 * parameter("slices") * parameter("steps");
-    return {taps, own + taps};
-  }
-  if (method == "schmitt") return {8, own + 2 * 8};  // positions and normals
-  return {settings.samples, own + settings.samples};
+  constexpr int kOnSurface = 4;  // a surface through four pixels
+  int samples = settings.samples, each = 1;
+  if (method == "march") samples *= parameter("steps");
+  if (method == "hbao") samples = parameter("directions") * parameter("steps");
+  if (method == "pyramid_hbao") samples = parameter("levels") * parameter("directions") * parameter("steps");
+  if (method == "gtao") samples = 2 * parameter("slices") * parameter("steps");
+  if (method == "schmitt") samples = 8;
+  if (method == "schmitt") each = 2;  // positions and normals
+  if (settings.method->points || method == "volumetric") each = kOnSurface;
+  if (settings.shared_open_air) each += 2 * kOnSurface;  // of both outermost neighbours
+  samples *= settings.radii;
+  double fetches = (settings.method->normal ? 2 : 1) + samples * each;
+  if (settings.half_resolution) fetches = fetches / 4 + 2 + 4 * 3;  // upsampling: four values with position and normal
+  if (settings.shared_neighbours > 0) fetches += 3 + 2 * settings.shared_neighbours * 3;
+  return {settings.half_resolution ? samples / 4.0 : samples, fetches};
 }
 
 std::string blur_name(const AoSettings& settings) {

@@ -26,14 +26,15 @@ struct Rung {
   std::string method() const { return settings.method(); }
 };
 
-// All of them, method by method, the cheapest first; `methods` empty: of all methods. Among them are those of the
+// All of them, method by method; `methods` empty: of all methods. Among them are those of the
 // tables of Pyramid HBAO (2021) and the performance and quality set-ups of Aalund (2013, tables 2 to 4).
 std::vector<Rung> ladder(const std::vector<std::string>& methods);
 
-// What a pixel costs at most, for one radius.
+// What a pixel costs at most, of all radii, by the passes up to where occlusion is known; of half the resolution a
+// quarter counts.
 struct TapCount {
-  int samples = 0;  // points, or places in the picture, that are looked at
-  int fetches = 0;  // texels read by the pass, the pixel's own among them
+  double samples = 0;  // points, or places in the picture, that are looked at
+  double fetches = 0;  // texels, the pixel's own among them
 };
 TapCount taps_of(const AoSettings& settings);
 

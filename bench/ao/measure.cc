@@ -16,10 +16,14 @@ struct PassSums {
   double occlusion_ms = 0, blur_ms = 0;  // of one module
 };
 
-PassSums sums_of(const proto::NodeReport& report, int layers) {
-  PassSums sums{occlusion_ms_of(report) / layers, 0};
+// The mean over the modules that are judged: others of the node have fewer neighbours.
+PassSums sums_of(const proto::NodeReport& report, const std::vector<std::uint32_t>& judged) {
+  PassSums sums;
+  const auto share = 1.0 / static_cast<double>(judged.size());
   for (const proto::PassTime& pass : report.pass()) {
-    if (pass.pass().starts_with("blur")) sums.blur_ms += pass.gpu_ms() / layers;
+    if (pass.module_size() != 1 || std::ranges::find(judged, pass.module(0)) == judged.end()) continue;
+    if (is_occlusion_pass(pass.pass())) sums.occlusion_ms += share * pass.gpu_ms();
+    if (is_blur_pass(pass.pass())) sums.blur_ms += share * pass.gpu_ms();
   }
   return sums;
 }
@@ -46,19 +50,16 @@ proto::AmbientOcclusion settings_of(const Rung& rung, double radius_m) {
   return ao;
 }
 
+constexpr BufferSet kOcclusion{1U << proto::AO};  // also where a scene's colours need none
+
 Result<PassSums> time_once(PlaceRenderers& renderers, const proto::AmbientOcclusion& ao) {
-  LFD_TRY(const FrameResult frame, renderers.draw(ao, {}, false));
-  return sums_of(frame.report, renderers.layers(ao));
+  LFD_TRY(const FrameResult frame, renderers.draw(ao, kOcclusion, false));
+  return sums_of(frame.report, renderers.judged());
 }
 
-// What it shows; how long that took says whether it is drawn often.
-Result<Measurement> look(PlaceRenderers& renderers, std::uint32_t module, const proto::AmbientOcclusion& ao,
-                         double& took_ms) {
-  const auto start = Clock::now();
-  BufferSet occlusion;
-  occlusion.bits = 1U << proto::AO;
-  LFD_TRY(const FrameResult frame, renderers.draw(ao, occlusion, true));
-  took_ms = milliseconds(Clock::now() - start);
+// What it shows.
+Result<Measurement> look(PlaceRenderers& renderers, std::uint32_t module, const proto::AmbientOcclusion& ao) {
+  LFD_TRY(const FrameResult frame, renderers.draw(ao, kOcclusion, true));
   Measurement seen;
   seen.layers = renderers.layers(ao);
   seen.open = openness_of(frame, module);
@@ -74,13 +75,10 @@ Rung yardstick() {
 
 }  // namespace
 
-double occlusion_ms_of(const proto::NodeReport& report) {
-  double sum = 0;
-  for (const proto::PassTime& pass : report.pass()) {
-    const std::string& name = pass.pass();
-    if (name == "ao" || name == "pyramid" || name == "ao_upsample" || name == "share") sum += pass.gpu_ms();
-  }
-  return sum;
+std::vector<std::uint32_t> PlaceRenderers::judged() const {
+  std::vector<std::uint32_t> modules{module_};
+  if (const auto next = beside()) modules.push_back(*next);
+  return modules;
 }
 
 std::optional<std::uint32_t> PlaceRenderers::beside() const {
@@ -109,7 +107,7 @@ int PlaceRenderers::layers(const proto::AmbientOcclusion& ao) {
 Result<FrameResult> PlaceRenderers::draw(const proto::AmbientOcclusion& ao, const BufferSet& buffers, bool read_back) {
   Renderer& one = renderer(ao.shared().neighbours());
   LFD_TRY_STATUS(one.set_state(scene_.state(ao), scene_.assets()));
-  LFD_TRY_STATUS(one.draw({.buffers = buffers, .time_modules = false, .reuse = false, .read_back = read_back}));
+  LFD_TRY_STATUS(one.draw({.buffers = buffers, .time_modules = true, .reuse = false, .read_back = read_back}));
   return one.collect();
 }
 
@@ -135,23 +133,25 @@ Result<std::vector<SharedPoint>> PlaceRenderers::shared_points() {
 
 Result<std::vector<Measurement>> measure(PlaceRenderers& renderers, const ShownScene& scene, std::uint32_t module,
                                          const std::vector<Rung>& rungs, const MeasureOptions& options) {
-  const KeptMeasurements kept(options.cache, scene, module, rungs, options);
+  const KeptMeasurements kept({scene, module, rungs, renderers.context().description()}, options);
   if (options.resume) {
     if (auto known = kept.read()) return *std::move(known);
   }
   std::vector<Measurement> seen;
-  std::vector<double> took_ms(rungs.size());
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    LFD_TRY(Measurement one, look(renderers, module, settings_of(rungs[i], options.radius_m), took_ms[i]));
+  for (const Rung& rung : rungs) {
+    LFD_TRY(Measurement one, look(renderers, module, settings_of(rung, options.radius_m)));
     seen.push_back(std::move(one));
   }
   const proto::AmbientOcclusion measure_by = settings_of(yardstick(), options.radius_m);
   LFD_TRY_STATUS(time_once(renderers, measure_by));  // not counted: shaders are compiled
+  std::vector<double> took_ms(rungs.size());
   for (int frame = 0; frame < options.frames; ++frame) {
     LFD_TRY(const PassSums unit, time_once(renderers, measure_by));
     for (std::size_t i = 0; i < rungs.size(); ++i) {
-      if (frame > 0 && took_ms[i] > options.slow_ms) continue;
+      if (took_ms[i] > kSlow_ms) continue;
+      const auto start = Clock::now();
       LFD_TRY(const PassSums sums, time_once(renderers, settings_of(rungs[i], options.radius_m)));
+      took_ms[i] = milliseconds(Clock::now() - start);
       seen[i].occlusion_ms.push_back(sums.occlusion_ms);
       seen[i].blur_ms.push_back(sums.blur_ms);
       seen[i].ratio.push_back(sums.occlusion_ms / unit.occlusion_ms);

@@ -14,7 +14,7 @@
 
 namespace lfd::bench {
 
-// What was seen of one rung. Times are of one module: of a frame's layers the mean.
+// What was seen of one rung. Times are of one module: the mean of both that are judged.
 struct Measurement {
   int layers = 0;                    // modules drawn together
   std::vector<double> occlusion_ms;  // by frame: all passes up to where occlusion is known for every pixel; GPU timers
@@ -23,9 +23,6 @@ struct Measurement {
   Openness open;                     // after the blur, before the curve
   Openness beside;                   // the same of the next module; empty where there is none
 };
-
-// Of all passes up to where occlusion is known, of all modules of a frame.
-double occlusion_ms_of(const proto::NodeReport& report);
 
 // Draws the modules of one place: the judged one and the next, or all neighbours that sharing asks for.
 class PlaceRenderers {
@@ -38,7 +35,12 @@ class PlaceRenderers {
   // is no other.
   std::optional<std::uint32_t> beside() const;
 
-  // One frame. Errors: settings, the driver.
+  // The module and beside().
+  std::vector<std::uint32_t> judged() const;
+
+  const gl::Context& context() const { return context_; }
+
+  // One frame, timed module by module. Errors: settings, the driver.
   Result<FrameResult> draw(const proto::AmbientOcclusion& ao, const BufferSet& buffers, bool read_back);
   // How many modules it draws.
   int layers(const proto::AmbientOcclusion& ao);
@@ -57,11 +59,11 @@ class PlaceRenderers {
 
 struct MeasureOptions {
   double radius_m = 0;
-  int frames = 5;         // of each rung, in turn; one of those whose first took long
-  double slow_ms = 2000;  // that long, for all its modules
-  bool resume = false;    // takes what `cache` has of the same program and the same rungs
+  int frames = 5;       // of each rung, in turn; one of those that take more than kSlow_ms
+  bool resume = false;  // takes what `cache` has of the same program, device and rungs
   std::filesystem::path cache;
 };
+inline constexpr double kSlow_ms = 2000;  // wall clock of a frame of all modules that are drawn
 
 // In the order of the rungs. Every round begins with the yardstick: `sphere` as it comes. The result is kept in the
 // cache.

@@ -52,7 +52,9 @@ constexpr std::array kTitles{"scene",
                              "fitted_inconsistent",
                              "pixels",
                              "shared_points",
-                             "mae_of_none"};
+                             "mae_of_none",
+                             "renderer",
+                             "version"};
 
 // Cells by their titles; what is not said is empty.
 class Line {
@@ -89,39 +91,36 @@ class Line {
   std::map<std::string, std::string, std::less<>> cells_;
 };
 
-// The reference itself: its time is that of the CPU, for all radii together.
-std::string line_of(const AoPlaceFacts& place, int rays) {
+Line line_of(const AoPlaceFacts& place) {
   Line line;
-  line.set("scene", place.scene).set("module", place.module).set("radius_share", place.radius_share);
-  line.set("method", "raytraced")
-      .set("settings", fmt::format("{} rays", rays))
-      .set("samples", rays)
-      .set("blur", "none");
-  line.set("ao_ms", place.cast_ms);
-  return line.set("mae", 0).set("ssim", 1).set("bias", 0).set("mae_of_none", place.mae_of_none).text();
+  line.set("scene", place.scene).set("display", place.display).set("module", place.module);
+  line.set("place", name_of(place.place)).set("width_px", place.image.width).set("height_px", place.image.height);
+  line.set("radius_share", place.radius_share).set("radius_m", place.radius_m).set("radius_px", place.radius_px);
+  return line.set("mae_of_none", place.mae_of_none);
 }
 
-std::string line_of(const AoRow& r, double mae_of_none) {
-  Line line;
-  line.set("scene", r.scene)
-      .set("display", r.display)
-      .set("module", r.module)
-      .set("place", r.is_middle ? "middle" : "edge");
-  line.set("width_px", r.image.width).set("height_px", r.image.height);
-  line.set("radius_share", r.radius_share).set("radius_m", r.radius_m).set("radius_px", r.radius_px);
+// The reference itself: its time is that of the CPU, for all radii together.
+std::string line_of_rays(const AoPlaceFacts& place, const AoTable& table) {
+  Line line = line_of(place);
+  line.set("method", "raytraced").set("settings", fmt::format("{} rays", table.rays)).set("samples", table.rays);
+  line.set("blur", "none").set("ao_ms", place.cast_ms).set("mae", 0).set("ssim", 1).set("bias", 0);
+  return line.set("renderer", "CPU").set("version", table.version).text();
+}
+
+std::string line_of(const AoPlaceFacts& place, const AoRow& r, const AoTable& table) {
+  Line line = line_of(place);
   line.set("method", r.rung.method()).set("settings", r.rung.name).set("origin", r.rung.origin).set("blur", r.blur);
   line.set("samples", r.taps.samples).set("fetches", r.taps.fetches).set("layers", r.layers).set("frames", r.frames);
-  line.set("ao_ms", r.occlusion_ms.median)
-      .set("ao_ms_5", r.occlusion_ms.percent_5)
-      .set("ao_ms_95", r.occlusion_ms.percent_95);
-  line.set("blur_ms", r.blur_ms.median);
+  line.set("ao_ms", r.occlusion_ms.median).set("ao_ms_5", r.occlusion_ms.percent_5);
+  line.set("ao_ms_95", r.occlusion_ms.percent_95).set("blur_ms", r.blur_ms.median);
   line.set("ratio", r.ratio.median).set("ratio_5", r.ratio.percent_5).set("ratio_95", r.ratio.percent_95);
   line.set_judged("", r.judged);
   if (r.fitted) {
     line.set("fit_a", r.fitted->curve.a).set("fit_b", r.fitted->curve.b).set("fit_c", r.fitted->curve.c);
     line.set_judged("fitted_", r.fitted->judged);
   }
-  return line.set("pixels", r.pixels).set("shared_points", r.shared_points).set("mae_of_none", mae_of_none).text();
+  line.set("pixels", r.pixels).set("shared_points", r.shared_points);
+  return line.set("renderer", table.renderer).set("version", table.version).text();
 }
 
 }  // namespace
@@ -129,10 +128,10 @@ std::string line_of(const AoRow& r, double mae_of_none) {
 std::string csv_of(const AoTable& table) {
   std::string text = fmt::format("{}\n", fmt::join(kTitles, ","));
   for (const AoPlaceFacts& place : table.places) {
-    text += line_of(place, table.rays);
+    text += line_of_rays(place, table);
     for (const AoRow& row : table.rows) {
       if (row.scene == place.scene && row.module == place.module && row.radius_share == place.radius_share)
-        text += line_of(row, place.mae_of_none);
+        text += line_of(place, row, table);
     }
   }
   return text;

@@ -27,7 +27,7 @@ Json json_of(const AoRow& r) {
   Json row{{"scene", r.scene},
            {"display", r.display},
            {"module", r.module},
-           {"place", r.is_middle ? "middle" : "edge"},
+           {"place", name_of(r.place)},
            {"image_px", {r.image.width, r.image.height}},
            {"radius_share", r.radius_share},
            {"radius_m", r.radius_m},
@@ -63,6 +63,10 @@ Json json_of(const ScalingRow& r) {
 
 Json json_of(const AoPlaceFacts& p) {
   return {{"scene", p.scene},
+          {"display", p.display},
+          {"place", name_of(p.place)},
+          {"radius_m", p.radius_m},
+          {"radius_px", p.radius_px},
           {"module", p.module},
           {"radius_share", p.radius_share},
           {"mae_of_none", p.mae_of_none},

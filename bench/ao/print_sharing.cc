@@ -10,8 +10,6 @@ namespace {
 bool is_shared(const AoRow& row) { return row.rung.settings.shared().neighbours() > 0; }
 bool is_blurred(const AoRow& row) { return row.blur != "none"; }
 
-const AoJudgement& errors_of(const AoRow& row) { return row.fitted ? row.fitted->judged : row.judged; }
-
 bool is_same_place(const AoRow& a, const AoRow& b) {
   return a.scene == b.scene && a.module == b.module && a.radius_share == b.radius_share;
 }
@@ -23,20 +21,20 @@ const AoRow* best_alone(const AoTable& table, const AoRow& shared) {
     if (is_shared(row) || !is_same_place(row, shared) || is_blurred(row) != is_blurred(shared) ||
         row.total_ms() > shared.total_ms())
       continue;
-    if (best == nullptr || errors_of(row).mae < errors_of(*best).mae) best = &row;
+    if (best == nullptr || fitted_or_not(row).mae < fitted_or_not(*best).mae) best = &row;
   }
   return best;
 }
 
 std::string row_text(const AoTable& table, const AoRow& row) {
-  const AoJudgement& e = errors_of(row);
+  const AoJudgement& e = fitted_or_not(row);
   std::string text = fmt::format("| {} | {} | {:g} | {} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {:.1f} % |",
-                                 row.scene, row.is_middle ? "middle" : "edge", 100 * row.radius_share,
+                                 row.scene, name_of(row.place), 100 * row.radius_share,
                                  row.rung.method() + ", " + row.rung.name, row.occlusion_ms.median, row.ratio.median,
                                  row.judged.mae, e.mae, e.mae_silhouette, 100 * e.inconsistent);
   const AoRow* alone = is_shared(row) ? best_alone(table, row) : nullptr;
   if (alone == nullptr) return text + " |\n";
-  const AoJudgement& other = errors_of(*alone);
+  const AoJudgement& other = fitted_or_not(*alone);
   return text + fmt::format(" {}, {}: {:.4f}, {:.4f}, {:.1f} % |\n", alone->rung.method(), alone->rung.name, other.mae,
                             other.mae_silhouette, 100 * other.inconsistent);
 }
@@ -71,12 +69,9 @@ std::string goal_text(const AoTable& table) {
 }  // namespace
 
 std::string sharing_text(const AoTable& table) {
-  std::vector<double> radii;
-  for (const AoPlaceFacts& place : table.places) radii.push_back(place.radius_share);
-  std::ranges::sort(radii);
   std::string rows;
   for (const AoRow& row : table.rows) {
-    if (is_shared(row) && row.radius_share == radii[radii.size() / 2]) rows += row_text(table, row);
+    if (is_shared(row) && row.radius_share == table.middle_radius()) rows += row_text(table, row);
   }
   if (rows.empty()) return "";
   std::string text = "\n## Shared by neighbouring modules\n" + goal_text(table) +

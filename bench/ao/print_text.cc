@@ -11,16 +11,11 @@
 namespace lfd::bench {
 namespace {
 
-double fitted_mae(const AoRow& row) { return row.fitted ? row.fitted->judged.mae : row.judged.mae; }
-
-double fitted_inconsistent(const AoRow& row) {
-  return row.fitted ? row.fitted->judged.inconsistent : row.judged.inconsistent;
-}
-
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 std::string subject_text(const AoTable& table) {
   const AoRow& first = table.rows.front();
+  const std::size_t frames = std::ranges::max(table.rows, {}, &AoRow::frames).frames;
   std::string text =
       fmt::format("# Ambient occlusion: error against run time\n\n{}. lfd {}.\n", table.renderer, table.version);
   text += fmt::format(
@@ -28,24 +23,22 @@ std::string subject_text(const AoTable& table) {
       "openness (1 - ao) after\n"
       "blur and curve, over pixels with a surface; *fitted*: the curve's a, b, c fitted on the other scenes at the "
       "same radius. Times are GPU\n"
-      "timer queries around the passes, of one module, the median of {} frames; *x*: over `sphere` as it comes, drawn "
+      "timer queries around the passes, of one module, the median of up to {} frames; *x*: over `sphere` as it comes, "
+      "drawn "
       "in the same round.\n"
       "*Inconsistent*: share of surface points that the next module shows with an occlusion more than 0.02 away.\n",
-      first.display, first.image.width, first.image.height, table.rays, first.frames);
+      first.display, first.image.width, first.image.height, table.rays, frames);
   return text;
 }
 
 std::string places_text(const AoTable& table) {
   std::string text =
-      "\n## Places\n\n| scene | module | R, % of the diagonal | R, m | R, px | MAE without occlusion "
-      "|\n|---|---|---|---|---|---|\n";
+      "\n## Places\n\n| scene | module | place | R, % of the diagonal | R, m | R, px | MAE without occlusion |\n"
+      "|---|---|---|---|---|---|---|\n";
   for (const AoPlaceFacts& place : table.places) {
-    const auto row = std::ranges::find_if(table.rows, [&](const AoRow& r) {
-      return r.scene == place.scene && r.module == place.module && r.radius_share == place.radius_share;
-    });
-    if (row == table.rows.end()) continue;
-    text += fmt::format("| {} | {} | {:g} | {:.4g} | {:.1f} | {:.4f} |\n", place.scene, place.module,
-                        100 * place.radius_share, row->radius_m, row->radius_px, place.mae_of_none);
+    text +=
+        fmt::format("| {} | {} | {} | {:g} | {:.4g} | {:.1f} | {:.4f} |\n", place.scene, place.module,
+                    name_of(place.place), 100 * place.radius_share, place.radius_m, place.radius_px, place.mae_of_none);
   }
   return text;
 }
@@ -58,18 +51,15 @@ constexpr const char* kRowTitles =
 std::string row_text(const AoRow& r) {
   return fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} |\n",
                      r.rung.method(), r.rung.name, r.blur, r.taps.samples, r.occlusion_ms.median, r.blur_ms.median,
-                     r.ratio.median, r.judged.mae, r.judged.ssim, fitted_mae(r),
-                     r.fitted ? r.fitted->judged.ssim : r.judged.ssim, percent(fitted_inconsistent(r)));
+                     r.ratio.median, r.judged.mae, r.judged.ssim, fitted_or_not(r).mae, fitted_or_not(r).ssim,
+                     percent(fitted_or_not(r).inconsistent));
 }
 
 // Rows of the middle module at the middle radius of a scene, the fastest first.
 std::vector<AoRow> study_rows(const AoTable& table, const std::string& scene) {
-  std::vector<double> radii;
-  for (const AoPlaceFacts& place : table.places) radii.push_back(place.radius_share);
-  std::ranges::sort(radii);
   std::vector<AoRow> rows;
   std::ranges::copy_if(table.rows, std::back_inserter(rows), [&](const AoRow& r) {
-    return r.scene == scene && r.is_middle && r.radius_share == radii[radii.size() / 2];
+    return r.scene == scene && r.is_middle() && r.radius_share == table.middle_radius();
   });
   std::ranges::sort(rows, {}, &AoRow::total_ms);
   return rows;
@@ -84,8 +74,8 @@ std::string fronts_text(const AoTable& table) {
         scene, kRowTitles);
     double best = 2;
     for (const AoRow& row : study_rows(table, scene)) {
-      if (row.rung.is_default || fitted_mae(row) >= best) continue;
-      best = fitted_mae(row);
+      if (row.rung.is_default || fitted_or_not(row).mae >= best) continue;
+      best = fitted_or_not(row).mae;
       text += row_text(row);
     }
   }
@@ -107,9 +97,9 @@ Mean mean_of(const AoTable& table, const std::function<bool(const AoRow&)>& is_m
       mean.blur_ms += row.blur_ms.median;
       mean.ratio += row.ratio.median;
       mean.mae += row.judged.mae;
-      mean.fitted += fitted_mae(row);
-      mean.silhouette += row.fitted ? row.fitted->judged.mae_silhouette : row.judged.mae_silhouette;
-      mean.inconsistent += fitted_inconsistent(row);
+      mean.fitted += fitted_or_not(row).mae;
+      mean.silhouette += fitted_or_not(row).mae_silhouette;
+      mean.inconsistent += fitted_or_not(row).inconsistent;
       ++mean.scenes;
     }
   }
@@ -127,25 +117,36 @@ std::vector<std::string> methods_of(const AoTable& table) {
   return methods;
 }
 
+std::vector<std::string> default_names_of(const AoTable& table, const std::string& method) {
+  std::vector<std::string> names;
+  for (const AoRow& row : table.rows) {
+    if (row.rung.method() == method && row.rung.name.starts_with("default") &&
+        std::ranges::find(names, row.rung.name) == names.end())
+      names.push_back(row.rung.name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 std::string options_text(const AoTable& table) {
   std::string text =
       "\n## Blurs and options alone\n\nMeans over the scenes, middle module, middle radius; every method as it comes "
-      "but for what is named.\n\n"
-      "| method | what | x | blur ms | MAE | fitted MAE | near silhouettes | inconsistent, fitted "
-      "|\n|---|---|---|---|---|---|---|---|\n";
+      "but "
+      "for what is named. *Added*: fitted MAE less that of the same\nmethod without blur: what the blur adds, or "
+      "removes "
+      "where it is below 0.\n\n"
+      "| method | what | x | blur ms | MAE | fitted MAE | added | near silhouettes | inconsistent, fitted "
+      "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const std::string& method : methods_of(table)) {
-    std::vector<std::string> names;
-    for (const AoRow& row : table.rows) {
-      if (row.rung.method() == method && row.rung.name.starts_with("default") &&
-          std::ranges::find(names, row.rung.name) == names.end())
-        names.push_back(row.rung.name);
-    }
-    std::ranges::sort(names);
-    for (const std::string& name : names) {
-      const Mean mean =
-          mean_of(table, [&](const AoRow& r) { return r.rung.method() == method && r.rung.name == name; });
-      text += fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {} |\n", method, name, mean.ratio,
-                          mean.blur_ms, mean.mae, mean.fitted, mean.silhouette, percent(mean.inconsistent));
+    const auto mean_of_name = [&](const std::string& name) {
+      return mean_of(table, [&](const AoRow& r) { return r.rung.method() == method && r.rung.name == name; });
+    };
+    const double unblurred = mean_of_name("default, no blur").fitted;
+    for (const std::string& name : default_names_of(table, method)) {
+      const Mean mean = mean_of_name(name);
+      text += fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.4f} | {:.4f} | {:+.4f} | {:.4f} | {} |\n", method, name,
+                          mean.ratio, mean.blur_ms, mean.mae, mean.fitted, mean.fitted - unblurred, mean.silhouette,
+                          percent(mean.inconsistent));
     }
   }
   return text;
@@ -158,10 +159,34 @@ double exponent(double from, double to, double x_from, double x_to) {
 
 double pixels_of(const ScalingRow& row) { return static_cast<double>(row.image.width) * row.image.height; }
 
+using RowsOfMethod = std::map<std::string, std::vector<ScalingRow>>;
+
+double time_exponent(const std::vector<ScalingRow>& rows, const std::function<double(const ScalingRow&)>& x_of) {
+  return exponent(rows.front().occlusion_ms, rows.back().occlusion_ms, x_of(rows.front()), x_of(rows.back()));
+}
+
+// Which grow, and how.
+std::string growth_sentence(const RowsOfMethod& of_method, const char* what,
+                            const std::function<double(const ScalingRow&)>& x_of) {
+  constexpr double kGrows = 0.15, kWorse = 1.25;
+  std::vector<std::string> slower, worse;
+  for (const auto& [method, rows] : of_method) {
+    if (time_exponent(rows, x_of) > kGrows)
+      slower.push_back(fmt::format("{} ({:.2f})", method, time_exponent(rows, x_of)));
+    if (rows.back().mae > kWorse * rows.front().mae)
+      worse.push_back(fmt::format("{} ({:.1f} x)", method, rows.back().mae / rows.front().mae));
+  }
+  const auto list = [](const std::vector<std::string>& names) {
+    return names.empty() ? std::string("of none") : fmt::format("of {}", fmt::join(names, ", "));
+  };
+  return fmt::format("With {} the time grows {}: the power of each in brackets. The error grows {}.\n", what,
+                     list(slower), list(worse));
+}
+
 std::string scaling_text(const std::vector<ScalingRow>& rows, const char* title, const char* what,
                          const std::function<double(const ScalingRow&)>& x_of,
                          const std::function<std::string(const ScalingRow&)>& label) {
-  std::map<std::string, std::vector<ScalingRow>> of_method;
+  RowsOfMethod of_method;
   for (const ScalingRow& row : rows) of_method[row.method].push_back(row);
   if (of_method.empty()) return "";
   std::string text = fmt::format(
@@ -173,11 +198,9 @@ std::string scaling_text(const std::vector<ScalingRow>& rows, const char* title,
   for (const auto& [method, of] : of_method) {
     text += fmt::format("\n| {} |", method);
     for (const ScalingRow& row : of) text += fmt::format(" {:.1f}, {:.4f} |", row.occlusion_ms, row.mae);
-    text += fmt::format(" {:.2f} | {:.2f} |",
-                        exponent(of.front().occlusion_ms, of.back().occlusion_ms, x_of(of.front()), x_of(of.back())),
-                        of.back().mae / of.front().mae);
+    text += fmt::format(" {:.2f} | {:.2f} |", time_exponent(of, x_of), of.back().mae / of.front().mae);
   }
-  return text + "\n";
+  return text + "\n\n" + growth_sentence(of_method, what, x_of);
 }
 
 std::string front_table(const AoTable& table) {

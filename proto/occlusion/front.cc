@@ -27,6 +27,8 @@ proto::AmbientOcclusion with_entry(const proto::AmbientOcclusion& asked, const p
   ao.set_samples(entry.ao().samples());
   *ao.mutable_parameter() = entry.ao().parameter();
   if (!asked.has_curve() && entry.ao().has_curve()) *ao.mutable_curve() = entry.ao().curve();
+  if (asked.radii() == 0) ao.set_radii(entry.ao().radii());
+  if (!asked.has_blur() && entry.ao().has_blur()) *ao.mutable_blur() = entry.ao().blur();
   if (!asked.has_shared() && entry.ao().has_shared()) *ao.mutable_shared() = entry.ao().shared();
   return ao;
 }

@@ -46,6 +46,9 @@ std::vector<shared::SharingParams> sharing_params(const Sharing& sharing, const 
     const int first = has_set(ao) ? part % parts_of_samples(ao, sharing.parts) * ao.samples : 0;
     all[layer].window = {window.first, window.last, first, 0};
     glm::dvec3 turn(0.618034 * ao.seed, 0.754878 * ao.seed, 0.569840 * ao.seed);
+    // Parts that have the same samples differ by their turns (Roberts 2018, the R sequence in three dimensions).
+    const int round = has_set(ao) ? part / parts_of_samples(ao, sharing.parts) : 0;
+    turn += static_cast<double>(round) * glm::dvec3(0.819173, 0.671044, 0.549700);
     if (!has_set(ao)) turn += glm::dvec3(part, 2 * part, 4 * part) / static_cast<double>(sharing.parts);  // odd
     all[layer].turn = glm::vec4(turn - glm::floor(turn), 0);
   }

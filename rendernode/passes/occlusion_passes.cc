@@ -54,7 +54,7 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   gl::Flags flags = inputs.modules.map_flags;
   if (plan.bent) flags.emplace_back("BENT");
   const bool is_shared = plan.sharing.has_neighbours();
-  if (is_shared) {
+  if (is_shared || plan.share) {
     sharing_ = gl::make_buffer(sharing_params(plan.sharing, inputs.settings.ao));
     glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_SHARING, sharing_.name());
   }

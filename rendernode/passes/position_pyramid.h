@@ -18,7 +18,8 @@ class PositionPyramid {
     gl::Framebuffer framebuffer;
   };
 
-  // Makes the levels that are not there yet. Error: the GPU has no memory for them; then nothing is kept.
+  // Makes so many levels, all anew where there are fewer, or of another factor. Error: the GPU has no memory for them; then
+  // nothing is kept.
   Status prepare(int factor, int levels, ImageSize full, int layers);
 
   const std::vector<Level>& levels() const { return levels_; }

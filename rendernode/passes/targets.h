@@ -20,7 +20,7 @@ class Targets {
 
   // SRGB8_ALPHA8; alpha: 1 lit, about 0.5 unlit, 0 no surface.
   GLuint albedo() const { return albedo_.name(); }
-  // RGBA32F, world minus ROI centre; w 1 where there is a surface.
+  // RGBA32F, world minus ROI centre; w 1 where there is a surface, 0.5 where it is drawn for ambient occlusion alone.
   GLuint position() const { return position_.name(); }
   // RGBA16F, world.
   GLuint normal() const { return normal_.name(); }

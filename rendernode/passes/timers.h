@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rendernode/gl/objects.h"
@@ -13,6 +14,12 @@ struct TimedPass {
   double gpu_ms = 0;
   std::vector<std::uint32_t> layers;  // empty: all
 };
+
+// Passes that find ambient occlusion, up to where it is known for every pixel; and those that blur it.
+inline bool is_occlusion_pass(std::string_view pass) {
+  return pass == "pyramid" || pass == "ao" || pass == "ao_upsample" || pass == "share";
+}
+inline bool is_blur_pass(std::string_view pass) { return pass.starts_with("blur"); }
 
 // The queries of one frame. Begin and end do not nest.
 class PassTimers {

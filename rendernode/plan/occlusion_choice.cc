@@ -30,8 +30,9 @@ OcclusionChoice::OcclusionChoice(const proto::OcclusionFront& front, const proto
   asked_ = *own;
   for (const auto& entry : front.entry()) {
     auto ao = ao_from(occlusion::with_entry(asked, entry));
-    // What the asked-for options do not go with is no candidate, nor sharing that has nobody to share with.
-    if (!ao || ao->shared_neighbours >= modules) continue;
+    // What the asked-for options do not go with is no candidate, nor sharing of the entry's own that has nobody to
+    // share with.
+    if (!ao || (!asked.has_shared() && ao->shared_neighbours >= modules)) continue;
     candidates_.push_back({*std::move(ao), entry.name(), entry.mae(), std::nullopt});
   }
 }

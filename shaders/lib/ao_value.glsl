@@ -7,7 +7,10 @@ const AoValue kNoSurface = vec4(-1.0, 0.0, 0.0, 0.0);
 AoValue ao_value(float hidden, vec3 open) { return vec4(hidden, open); }
 float hidden_of(AoValue value) { return value.r; }
 AoValue leaning(vec4 texel, vec3 normal) { return vec4(texel.r, texel.gba - normal); }
-AoValue upright(AoValue value, vec3 normal) { return vec4(value.r, value.gba + normal); }
+AoValue upright(AoValue value, vec3 normal) {
+  vec3 open = value.gba + normal;
+  return vec4(value.r, open / max(1.0, length(open)));  // of unlike normals the sum may be longer than all that is open
+}
 #else
 #define AoValue float
 const AoValue kNoSurface = -1.0;

@@ -45,7 +45,7 @@ void main() {
     ivec3 there = ivec3(q.xy, other);
     vec4 surface = texelFetch(positions, there, 0);
     vec3 v = surface.xyz - p;
-    if (surface.w == 0.0 || abs(dot(v, n)) > most_off_plane * size ||
+    if (surface.w < 1.0 || abs(dot(v, n)) > most_off_plane * size ||
         dot(v, v) > most_apart * most_apart * size * size)
       continue;
     vec3 n_there = texelFetch(normals, there, 0).xyz;

@@ -30,13 +30,15 @@ class SharingStage {
   const std::vector<std::uint32_t>& modules() const { return modules_; }
   const ModuleCalibration& module(std::size_t layer) const { return display_.modules[modules_[layer]]; }
 
-  // Without blur. `gather`: false leaves out the pass that gathers; samples and noise are the same.
-  std::vector<LayerPicture> draw(const proto::AmbientOcclusion& ao, bool gather) {
+  // Without blur. `gather`: false leaves out the pass that gathers; samples and noise are the same. `has_radius`: false
+  // sets it to 0, which no message can.
+  std::vector<LayerPicture> draw(const proto::AmbientOcclusion& ao, bool gather, bool has_radius = true) {
     context();
     proto::RenderSettings message;
     *message.mutable_ao() = ao;
     message.mutable_ao()->mutable_blur()->set_enabled(false);
-    const RenderSettings settings = *read_settings(message);
+    RenderSettings settings = *read_settings(message);
+    if (!has_radius) settings.ao.radius_m = settings.ao.radius_roi = 0;
     const WarpTables tables = warp_tables(display_, modules_, 0);
     const GpuModules gpu_modules = upload_modules(display_, modules_, tables, {0, display_.screen});
     const DepthLimits limits = depth_limits(display_, settings);

@@ -97,6 +97,17 @@ TEST_F(OcclusionBudget, IsChosenOnce) {
       << "the very times: it was not timed again";
   const FrameResult third = draw(renderer, budget(1e-6));
   EXPECT_NE(third.report.occlusion_choice(), first.report.occlusion_choice()) << "another budget";
+  // Nothing has changed, and the next frame is begun before this one is collected: each says what it was drawn with.
+  const proto::State same = state_with(budget(1e6));
+  ASSERT_TRUE(renderer.set_state(same, scene_.assets));
+  const FrameOptions again{.buffers = testing_support::buffers({proto::AO}), .reuse = false};
+  ASSERT_TRUE(renderer.draw(again));
+  ASSERT_TRUE(renderer.draw(again));
+  const FrameResult one = renderer.collect(), other = renderer.collect();
+  EXPECT_FALSE(one.report.occlusion_choice().empty());
+  EXPECT_EQ(one.report.occlusion_choice(), other.report.occlusion_choice());
+  EXPECT_EQ(testing_support::floats_of(*testing_support::find_image(one, 3, proto::AO)),
+            testing_support::floats_of(*testing_support::find_image(other, 3, proto::AO)));
 }
 
 TEST_F(OcclusionBudget, WithoutOcclusionNothingIsTimed) {

@@ -1,5 +1,8 @@
-// lfd bench frame to its end: what it prints and leaves.
+// lfd bench frame and ao to their ends: what they print and leave.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +23,53 @@ TEST(LfdBench, FramePrintsTimesAndErrors) {
   EXPECT_EQ(json["times"]["frames"], 2);
   EXPECT_EQ(json["times"]["passes"].size(), 6);
   EXPECT_TRUE(json["error"].contains("ao_against_own_limit"));
+}
+
+// The arguments of a bench that takes a second.
+std::vector<std::string> small_ao_bench(const Workbench& bench) {
+  return {"bench",
+          "ao",
+          bench.deployment("sink: NONE", "w.textproto"),
+          "--out",
+          (bench.folder() / "ao").string(),
+          "--size",
+          "24x16",
+          "--rays",
+          "16",
+          "--frames",
+          "1",
+          "--radius",
+          "0.16",
+          "--method",
+          "schmitt",
+          "--no-scaling"};
+}
+
+TEST(LfdBench, AoLeavesTablesPlotsAndPictures) {
+  const Workbench bench;
+  const auto lfd = start_program("lfd", small_ao_bench(bench));
+  const auto exit = lfd->wait(kClusterPatience);
+  ASSERT_TRUE(exit && exit->succeeded()) << testing::PrintToString(lfd->lines());
+  for (const char* file :
+       {"ao.md", "ao.csv", "ao-front.textproto", "ao-plane.svg", "strips/plane-module-002-radius-0.16-schmitt.png"})
+    EXPECT_TRUE(std::filesystem::is_regular_file(bench.folder() / "ao" / file)) << file;
+  const auto json = nlohmann::json::parse(*read_file(bench.folder() / "ao/ao.json"));
+  EXPECT_GT(json["rows"].size(), 5U);
+  EXPECT_EQ(json["rows"][0]["method"], "schmitt");
+}
+
+TEST(LfdBench, AoSaysWhatWasMeant) {
+  const Workbench bench;
+  const auto lines_of = [&](const std::string& option, const std::string& value) {
+    std::vector<std::string> arguments = small_ao_bench(bench);
+    arguments.insert(arguments.end(), {option, value});
+    const auto lfd = start_program("lfd", arguments);
+    const auto exit = lfd->wait(kClusterPatience);
+    EXPECT_TRUE(exit && exit->code == 2) << option;
+    return testing::PrintToString(lfd->lines());
+  };
+  EXPECT_THAT(lines_of("--method", "sphre"), testing::HasSubstr("did you mean sphere?"));
+  EXPECT_THAT(lines_of("--radius", "0"), testing::HasSubstr("0.001 to 10"));
 }
 
 }  // namespace

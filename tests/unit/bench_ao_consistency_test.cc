@@ -80,6 +80,10 @@ TEST_F(AoConsistency, CountsDifferencesBeyondItsBound) {
   EXPECT_EQ(off_by(-0.025), 1);
   const auto half = [&](double x, double y) { return smooth(x, y) + (x < 0 ? 0.1 : 0); };
   EXPECT_NEAR(inconsistent_share(points, painted(one_, smooth), painted(other_, half)), 0.5, 0.05);
+  // What one of them does not find is no difference.
+  Openness holes = painted(other_, smooth);
+  for (std::size_t i = 0; i < holes.value.size(); i += 3) holes.value[i] = -1;
+  EXPECT_EQ(inconsistent_share(points, painted(one_, smooth), holes), 0);
   EXPECT_EQ(inconsistent_share({}, painted(one_, smooth), painted(other_, smooth)), 0);
 }
 

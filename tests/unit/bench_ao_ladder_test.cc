@@ -68,22 +68,26 @@ TEST(AoLadder, HasTheSetUpsOfThePapers) {
   }
   struct SetUp {
     const char* method;
-    int fast, fine;
+    const char* fast;
+    int taps;
+    const char* fine;
     occlusion::Curve fine_curve;
   };
-  for (const SetUp& wanted : {SetUp{"crytek", 24, 200, {0.57, 1, 5}},
-                              {"starcraft", 15, 80, {0, 1.1, 2}},
-                              {"volumetric", 24, 40, {0.5, 1, 3}},
-                              {"alchemy", 6, 64, {0, 1, 5}},
-                              {"unreal", 6, 32, {0, 1, 3}}}) {
-    const auto of = [&](int samples) {
-      return settings_of(find(rungs, wanted.method, fmt::format("{} samples", samples))).ao;
+  for (const SetUp& wanted : {SetUp{"crytek", "24 samples", 3, "200 samples", {0.55, 1, 4}},
+                              {"starcraft", "15 samples", 2, "80 samples", {0, 1.1, 2}},
+                              {"hbao", "8 directions, 6 steps", 1, "80 directions, 6 steps", {0, 1, 3}},
+                              {"volumetric", "24 samples", 1, "40 samples", {0.5, 1, 3}},
+                              {"alchemy", "6 samples", 2, "64 samples", {0, 1, 5}},
+                              {"unreal", "6 samples", 2, "32 samples", {0, 1, 3}}}) {
+    const auto of = [&](const char* name) {
+      return settings_of(find(rungs, wanted.method, std::string(name) + ", as in 2013")).ao;
     };
-    EXPECT_EQ(of(wanted.fast).samples, wanted.fast) << wanted.method;
-    EXPECT_EQ(of(wanted.fine).samples, wanted.fine) << wanted.method;
+    EXPECT_EQ(of(wanted.fast).blur, AoBlur::kGeometry) << wanted.method;
+    EXPECT_EQ(of(wanted.fast).blur_taps, wanted.taps) << wanted.method;
+    EXPECT_EQ(of(wanted.fast).curve, occlusion::find_method(wanted.method)->curve) << wanted.method;
+    EXPECT_FALSE(of(wanted.fine).blur_enabled) << wanted.method;
     EXPECT_EQ(of(wanted.fine).curve, wanted.fine_curve) << wanted.method;
   }
-  EXPECT_EQ(settings_of(find(rungs, "hbao", "80 directions, 6 steps")).ao.curve, (occlusion::Curve{0, 1, 3}));
 }
 
 TEST(AoLadder, CountsTaps) {
@@ -97,6 +101,10 @@ TEST(AoLadder, CountsTaps) {
   EXPECT_EQ(taps("march", "4 directions, 4 steps").samples, 16);
   EXPECT_EQ(taps("march", "4 directions, 4 steps").fetches, 66) << "four of each point";
   EXPECT_EQ(taps("sphere", "8 samples").fetches, 33);
+  EXPECT_EQ(taps("sphere", "8 samples, 5 radii").samples, 40);
+  EXPECT_EQ(taps("volumetric", "8 samples").fetches, 33) << "on surfaces too";
+  EXPECT_EQ(taps("sphere", "default, half resolution").samples, 2);
+  EXPECT_EQ(taps("march", "4 directions, 4 steps, shared over +-4").fetches, 66 + 3 + 8 * 3);
   EXPECT_EQ(taps("pyramid_hbao", "2 levels").samples, 64);
   EXPECT_EQ(taps("schmitt", "8 neighbours").fetches, 18);
 }

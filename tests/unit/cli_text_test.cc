@@ -102,5 +102,16 @@ TEST(Warnings, AreEachSaidOnceAndTellOfAFrameThatShowsNothing) {
   EXPECT_THAT(warnings_of({frame, frame}, 2), ElementsAre(HasSubstr("far away")));
 }
 
+TEST(Warnings, TellOfNodesThatChoseDifferentOcclusion) {
+  proto::FrameReport frame;
+  frame.add_node()->set_node("left");
+  frame.add_node()->set_node("right");
+  frame.mutable_node(0)->set_occlusion_choice("gtao, 3 slices: 1.2 ms of 2 ms");
+  frame.mutable_node(1)->set_occlusion_choice("gtao, 3 slices: 1.4 ms of 2 ms");
+  EXPECT_THAT(warnings_of({frame}, 100), IsEmpty()) << "times differ, settings do not";
+  frame.mutable_node(1)->set_occlusion_choice("hbao, 4 directions: 1.4 ms of 2 ms");
+  EXPECT_THAT(warnings_of({frame}, 100), ElementsAre(HasSubstr("\"left\" and \"right\" chose different")));
+}
+
 }  // namespace
 }  // namespace lfd

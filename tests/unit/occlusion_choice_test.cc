@@ -96,6 +96,12 @@ TEST(OcclusionChoice, KeepsWhatElseWasAskedFor) {
   EXPECT_EQ(chosen.radius_m, 0.5);
   EXPECT_TRUE(chosen.half_resolution);
   EXPECT_EQ(chosen.curve, (occlusion::Curve{0, 2, 3}));
+  proto::OcclusionFront::Entry entry;
+  entry.mutable_ao()->set_method("sphere");
+  entry.mutable_ao()->set_radii(5);
+  EXPECT_EQ(occlusion::with_entry({}, entry).radii(), 5);
+  ao.set_radii(2);
+  EXPECT_EQ(occlusion::with_entry(ao, entry).radii(), 2);
 }
 
 TEST(OcclusionChoice, LeavesOutWhatCannotBeDrawnAsItWasMeasured) {
@@ -108,6 +114,11 @@ TEST(OcclusionChoice, LeavesOutWhatCannotBeDrawnAsItWasMeasured) {
   EXPECT_EQ(alone.chosen().ao.samples, 4);
   EXPECT_EQ(time_all(together, by_samples), 2);
   EXPECT_EQ(together.chosen().ao.shared_neighbours, 4);
+  bent.mutable_shared()->set_neighbours(6);  // the user's own wish, however few modules there are
+  OcclusionChoice asked_for(front, bent, 2);
+  EXPECT_EQ(time_all(asked_for, by_samples), 2);
+  EXPECT_EQ(asked_for.chosen().ao.shared_neighbours, 6);
+  bent.clear_shared();
   OcclusionChoice none(front_of({{"schmitt", 0, 0.01}}), bent, 5);
   EXPECT_EQ(time_all(none, by_samples), 0);
   EXPECT_EQ(none.chosen().ao.method->name, "sphere");
