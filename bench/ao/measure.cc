@@ -16,14 +16,14 @@ struct PassSums {
   double occlusion_ms = 0, blur_ms = 0;  // of one module
 };
 
-// The mean over the modules that are judged: others of the node have fewer neighbours.
-PassSums sums_of(const proto::NodeReport& report, const std::vector<std::uint32_t>& judged) {
+// Of one judged module: of all passes its even part, of sharing that of its neighbours, of which others have fewer.
+// (Timers of single modules would say less: rasterisers that sort by tiles draw all layers of a tile in turn.)
+PassSums sums_of(const proto::NodeReport& report, const PlaceRenderers::Parts& parts) {
   PassSums sums;
-  const auto share = 1.0 / static_cast<double>(judged.size());
   for (const proto::PassTime& pass : report.pass()) {
-    if (pass.module_size() != 1 || std::ranges::find(judged, pass.module(0)) == judged.end()) continue;
-    if (is_occlusion_pass(pass.pass())) sums.occlusion_ms += share * pass.gpu_ms();
-    if (is_blur_pass(pass.pass())) sums.blur_ms += share * pass.gpu_ms();
+    const double of_module = pass.pass() == "share" ? parts.of_sharing : parts.even;
+    if (is_occlusion_pass(pass.pass())) sums.occlusion_ms += of_module * pass.gpu_ms();
+    if (is_blur_pass(pass.pass())) sums.blur_ms += of_module * pass.gpu_ms();
   }
   return sums;
 }
@@ -54,7 +54,7 @@ constexpr BufferSet kOcclusion{1U << proto::AO};  // also where a scene's colour
 
 Result<PassSums> time_once(PlaceRenderers& renderers, const proto::AmbientOcclusion& ao) {
   LFD_TRY(const FrameResult frame, renderers.draw(ao, kOcclusion, false));
-  return sums_of(frame.report, renderers.judged());
+  return sums_of(frame.report, renderers.parts(ao));
 }
 
 // What it shows.
@@ -75,10 +75,18 @@ Rung yardstick() {
 
 }  // namespace
 
-std::vector<std::uint32_t> PlaceRenderers::judged() const {
-  std::vector<std::uint32_t> modules{module_};
-  if (const auto next = beside()) modules.push_back(*next);
-  return modules;
+PlaceRenderers::Parts PlaceRenderers::parts(const proto::AmbientOcclusion& ao) {
+  const auto& modules = renderer(ao.shared().neighbours()).modules();
+  const auto neighbours_of = [&](std::uint32_t module) {
+    return std::ranges::count_if(modules, [&](std::uint32_t other) {
+      const auto apart = std::max(module, other) - std::min(module, other);
+      return apart > 0 && apart <= static_cast<std::uint32_t>(ao.shared().neighbours());
+    });
+  };
+  std::ptrdiff_t all = 0, judged = neighbours_of(module_) + neighbours_of(beside().value_or(module_));
+  for (const std::uint32_t module : modules) all += neighbours_of(module);
+  return {1.0 / static_cast<double>(modules.size()),
+          all == 0 ? 0 : 0.5 * static_cast<double>(judged) / static_cast<double>(all)};
 }
 
 std::optional<std::uint32_t> PlaceRenderers::beside() const {
@@ -107,7 +115,7 @@ int PlaceRenderers::layers(const proto::AmbientOcclusion& ao) {
 Result<FrameResult> PlaceRenderers::draw(const proto::AmbientOcclusion& ao, const BufferSet& buffers, bool read_back) {
   Renderer& one = renderer(ao.shared().neighbours());
   LFD_TRY_STATUS(one.set_state(scene_.state(ao), scene_.assets()));
-  LFD_TRY_STATUS(one.draw({.buffers = buffers, .time_modules = true, .reuse = false, .read_back = read_back}));
+  LFD_TRY_STATUS(one.draw({.buffers = buffers, .time_modules = false, .reuse = false, .read_back = read_back}));
   return one.collect();
 }
 

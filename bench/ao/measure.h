@@ -35,12 +35,15 @@ class PlaceRenderers {
   // is no other.
   std::optional<std::uint32_t> beside() const;
 
-  // The module and beside().
-  std::vector<std::uint32_t> judged() const;
+  // What part of a frame's time one judged module has: of passes that do the same for all, and of sharing.
+  struct Parts {
+    double even = 1, of_sharing = 0;
+  };
+  Parts parts(const proto::AmbientOcclusion& ao);
 
   const gl::Context& context() const { return context_; }
 
-  // One frame, timed module by module. Errors: settings, the driver.
+  // One frame. Errors: settings, the driver.
   Result<FrameResult> draw(const proto::AmbientOcclusion& ao, const BufferSet& buffers, bool read_back);
   // How many modules it draws.
   int layers(const proto::AmbientOcclusion& ao);
