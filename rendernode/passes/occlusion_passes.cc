@@ -12,7 +12,10 @@
 namespace lfd {
 namespace {
 
-gl::Flags flags_of(const FramePlan& plan) { return plan.bent ? gl::Flags{"BENT"} : gl::Flags{}; }
+gl::Flags flags_of(const FramePlan& plan, gl::Flags flags = {}) {
+  if (plan.bent) flags.emplace_back("BENT");
+  return flags;
+}
 
 constexpr GLint kBlurDirection = 1, kBlurTaps = 2, kBlurWeights = 3;  // uniform locations of both blurs
 constexpr GLint kFinerMip = 1, kFinerSize = 2;                        // of the pyramid's passes
@@ -51,8 +54,7 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
   const bool reads_normal = method.normal || plan.bent;
-  gl::Flags flags = inputs.modules.map_flags;
-  if (plan.bent) flags.emplace_back("BENT");
+  gl::Flags flags = flags_of(plan, inputs.modules.map_flags);
   const bool is_shared = plan.sharing.has_neighbours();
   if (is_shared || plan.share) {
     sharing_ = gl::make_buffer(sharing_params(plan.sharing, inputs.settings.ao));
@@ -100,8 +102,7 @@ Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands,
 
 Status FramePasses::share(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                           const Targets& targets, PassTimers& timers) {
-  gl::Flags flags = inputs.modules.map_flags;
-  if (plan.bent) flags.emplace_back("BENT");
+  gl::Flags flags = flags_of(plan, inputs.modules.map_flags);
   if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_share.frag"}, flags));
   glUseProgram(name);
