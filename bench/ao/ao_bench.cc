@@ -12,6 +12,7 @@
 #include "bench/ao/scaling.h"
 #include "bench/ao/strips.h"
 #include "bench/common/built_commit.h"
+#include "bench/reference/parallel_rows.h"
 #include "proto/pictures/png.h"
 
 namespace lfd::bench {
@@ -183,12 +184,21 @@ class Bench {
       if (rungs.empty()) continue;
       // Pictures of all places at once would not fit into memory: they are read again.
       LFD_TRY(const auto seen, measure(renderers, *place.scene, place.module, rungs, measuring(place, share, true)));
-      for (std::size_t i = 0; i < rungs.size(); ++i) LFD_TRY_STATUS(add_row(place, share, rungs[i], seen[i]));
+      std::vector<std::optional<Result<AoRow>>> rows(rungs.size());
+      reference::for_each_row(static_cast<int>(rungs.size()), [&](int row) {
+        const auto i = static_cast<std::size_t>(row);
+        rows[i] = row_of(place, share, rungs[i], seen[i]);
+      });
+      for (auto& judged : rows) {
+        LFD_TRY(AoRow row, *std::move(judged));
+        table_.rows.push_back(std::move(row));
+      }
     }
     return {};
   }
 
-  Status add_row(const JudgedPlace& place, double share, const Rung& rung, const Measurement& seen) {
+  // From several threads at once.
+  Result<AoRow> row_of(const JudgedPlace& place, double share, const Rung& rung, const Measurement& seen) const {
     const std::size_t k = index_of(radii_, share);
     LFD_TRY(const RenderSettings settings, read_settings(place.scene->state(rung.settings).render()));
     AoRow row;
@@ -218,8 +228,7 @@ class Bench {
     if (const auto curve = fits_.without(row.scene, rung)) row.mae_over_all = judge.judge(seen, *curve).mae;
     if (const auto curve = fits_.over_all(rung)) row.curve_over_all = *curve;
     if (rung.is_default) LFD_TRY_STATUS(write_strip(row, judge.cosine, seen));
-    table_.rows.push_back(std::move(row));
-    return {};
+    return row;
   }
 
   Status write_strip(const AoRow& row, const Openness& reference, const Measurement& seen) const {

@@ -47,7 +47,8 @@ std::size_t most_texels() {
   return static_cast<std::size_t>(std::max(most, 0));
 }
 
-Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth, GLint level) {
+Result<Framebuffer> make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth, std::string_view what,
+                                             GLint level) {
   Framebuffer framebuffer = make_framebuffer();
   std::vector<GLenum> draw_buffers;
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -59,7 +60,8 @@ Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint dept
   if (draw_buffers.empty()) draw_buffers.push_back(GL_NONE);
   glNamedFramebufferDrawBuffers(framebuffer.name(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
   const GLenum status = glCheckNamedFramebufferStatus(framebuffer.name(), GL_DRAW_FRAMEBUFFER);
-  LFD_CHECK(status == GL_FRAMEBUFFER_COMPLETE, "the framebuffer is incomplete");
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    return Error(fmt::format("the GPU cannot draw into {} (framebuffer status {:#x})", what, status));
   return framebuffer;
 }
 

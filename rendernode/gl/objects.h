@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "base/result.h"
 #include "calibration/spaces/pixel.h"
 #include "rendernode/gl/handle.h"
 
@@ -21,8 +23,10 @@ Texture make_buffer_texture(GLenum internal_format, const Buffer& buffer);
 std::size_t most_texels();
 
 // A framebuffer over all layers of a mip level of these array textures: color attachment i is colors[i]; depth may be
-// 0.
-Framebuffer make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth, GLint level = 0);
+// 0. Error: GL cannot draw into them ("the GPU cannot draw into WHAT"), as where it has promised more memory than there
+// is.
+Result<Framebuffer> make_layered_framebuffer(std::span<const GLuint> colors, GLuint depth, std::string_view what,
+                                             GLint level = 0);
 
 // A buffer with this content; never of size 0 (GL refuses that).
 template <class T>

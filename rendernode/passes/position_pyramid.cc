@@ -35,13 +35,17 @@ Status PositionPyramid::prepare(int factor, int levels, ImageSize full, int laye
     levels_.push_back({size, {}});
   }
   position_ = gl::make_array_texture(GL_RGBA32F, size_for(levels_), layers, levels);
-  if (const Status made = gl::memory_status(fmt::format("a pyramid of {} levels", levels)); !made) {
-    *this = PositionPyramid();
-    return made;
-  }
+  Status made = make_framebuffers(fmt::format("a pyramid of {} levels", levels));
+  if (!made) *this = PositionPyramid();
+  return made;
+}
+
+Status PositionPyramid::make_framebuffers(const std::string& what) {
+  LFD_TRY_STATUS(gl::memory_status(what));
   const std::array<GLuint, 1> colors{position_.name()};
-  for (int mip = 0; mip < levels; ++mip)
-    levels_[static_cast<std::size_t>(mip)].framebuffer = gl::make_layered_framebuffer(colors, 0, mip);
+  for (std::size_t mip = 0; mip < levels_.size(); ++mip) {
+    LFD_TRY(levels_[mip].framebuffer, gl::make_layered_framebuffer(colors, 0, what, static_cast<GLint>(mip)));
+  }
   return {};
 }
 

@@ -11,14 +11,11 @@ namespace lfd {
 Status Targets::prepare(const FramePlan& plan) {
   if (plan.pyramid_levels > 0)
     LFD_TRY_STATUS(pyramid_.prepare(plan.pyramid_factor, plan.pyramid_levels, size_, layers_));
-  if (!make_textures(plan)) return {};
   const std::string what = fmt::format("the pictures of {} modules of {}x{}", layers_, size_.width, size_.height);
-  if (const Status made = gl::memory_status(what); !made) {
-    *this = Targets(size_, layers_);
-    return made;
-  }
-  make_framebuffers();
-  return {};
+  if (!make_textures(plan) && geometry(plan) != 0) return {};
+  Status made = make_framebuffers(plan, what);
+  if (!made) *this = Targets(size_, layers_);
+  return made;
 }
 
 bool Targets::make_textures(const FramePlan& plan) {
@@ -49,27 +46,27 @@ void Targets::drop_ao(bool bent) {
   bent_ = bent;
 }
 
-void Targets::make_framebuffers() {
-  const auto make = [](gl::Framebuffer& framebuffer, const gl::Texture& color) {
-    if (framebuffer || !color) return;
+Status Targets::make_framebuffers(const FramePlan& plan, const std::string& what) {
+  LFD_TRY_STATUS(gl::memory_status(what));
+  const auto make = [&](gl::Framebuffer& framebuffer, const gl::Texture& color) -> Status {
+    if (framebuffer || !color) return {};
     const std::array<GLuint, 1> colors{color.name()};
-    framebuffer = gl::make_layered_framebuffer(colors, 0);
+    LFD_TRY(framebuffer, gl::make_layered_framebuffer(colors, 0, what));
+    return {};
   };
-  if (!depth_framebuffer_) depth_framebuffer_ = gl::make_layered_framebuffer({}, depth_.name());
-  make(ao_framebuffer_[0], ao_[0]);
-  make(ao_framebuffer_[1], ao_[1]);
-  make(half_ao_framebuffer_, half_ao_);
-  make(color_framebuffer_, color_);
-}
-
-GLuint Targets::geometry(const FramePlan& plan) {
-  gl::Framebuffer& framebuffer = geometry_framebuffer_[plan.position ? 1 : 0][plan.normal ? 1 : 0];
-  if (!framebuffer) {
-    const std::array<GLuint, 3> colors{albedo_.name(), plan.position ? position_.name() : 0,
-                                       plan.normal ? normal_.name() : 0};
-    framebuffer = gl::make_layered_framebuffer(colors, depth_.name());
+  if (!depth_framebuffer_) {
+    LFD_TRY(depth_framebuffer_, gl::make_layered_framebuffer({}, depth_.name(), what));
   }
-  return framebuffer.name();
+  LFD_TRY_STATUS(make(ao_framebuffer_[0], ao_[0]));
+  LFD_TRY_STATUS(make(ao_framebuffer_[1], ao_[1]));
+  LFD_TRY_STATUS(make(half_ao_framebuffer_, half_ao_));
+  LFD_TRY_STATUS(make(color_framebuffer_, color_));
+  gl::Framebuffer& geometry_framebuffer = geometry_framebuffer_[plan.position ? 1 : 0][plan.normal ? 1 : 0];
+  if (geometry_framebuffer) return {};
+  const std::array<GLuint, 3> colors{albedo_.name(), plan.position ? position_.name() : 0,
+                                     plan.normal ? normal_.name() : 0};
+  LFD_TRY(geometry_framebuffer, gl::make_layered_framebuffer(colors, depth_.name(), what));
+  return {};
 }
 
 }  // namespace lfd

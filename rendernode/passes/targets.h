@@ -1,6 +1,8 @@
 // The pictures that passes write: array textures with one layer per module, made when a plan first needs them.
 #pragma once
 
+#include <string>
+
 #include "base/result.h"
 #include "rendernode/gl/objects.h"
 #include "rendernode/passes/position_pyramid.h"
@@ -12,7 +14,8 @@ class Targets {
  public:
   Targets(ImageSize size, int layers) : size_(size), layers_(layers) {}
 
-  // Makes what the plan needs and is not there yet. Error: the GPU has no memory for it; then nothing is kept.
+  // Makes what the plan needs and is not there yet. Error: the GPU has no memory for it or cannot draw into it; then
+  // nothing is kept.
   Status prepare(const FramePlan& plan);
 
   ImageSize size() const { return size_; }
@@ -37,7 +40,9 @@ class Targets {
 
   // Framebuffers over all layers. geometry: albedo, position, normal as the plan needs them, and depth.
   GLuint depth_only() const { return depth_framebuffer_.name(); }
-  GLuint geometry(const FramePlan& plan);
+  GLuint geometry(const FramePlan& plan) const {
+    return geometry_framebuffer_[plan.position ? 1 : 0][plan.normal ? 1 : 0].name();
+  }
   GLuint ao_framebuffer(int i) const { return ao_framebuffer_[i].name(); }
   GLuint color_framebuffer() const { return color_framebuffer_.name(); }
   const PositionPyramid& pyramid() const { return pyramid_; }
@@ -45,7 +50,7 @@ class Targets {
  private:
   bool make_textures(const FramePlan& plan);  // whether any was missing
   void drop_ao(bool bent);                    // those made next are so
-  void make_framebuffers();
+  Status make_framebuffers(const FramePlan& plan, const std::string& what);
 
   ImageSize size_;
   int layers_;

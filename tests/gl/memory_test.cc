@@ -9,7 +9,7 @@
 namespace lfd {
 namespace {
 
-using testing::HasSubstr;
+using testing::MatchesRegex;
 
 TEST(GpuMemory, IsAnErrorWhereTheTargetsDoNotFitAndKeepsNothing) {
   FramePlan plan;
@@ -18,7 +18,9 @@ TEST(GpuMemory, IsAnErrorWhereTheTargetsDoNotFitAndKeepsNothing) {
   Targets targets({8192, 8192}, 256);
   const Status prepared = targets.prepare(plan);
   ASSERT_FALSE(prepared);
-  EXPECT_THAT(prepared.error().message(), HasSubstr("no memory for the pictures of 256 modules of 8192x8192"));
+  // Some drivers promise the memory, and refuse to draw into it.
+  EXPECT_THAT(prepared.error().message(),
+              MatchesRegex("the GPU (has no memory for|cannot draw into) the pictures of 256 modules of 8192x8192.*"));
   EXPECT_EQ(targets.albedo(), 0u);
   EXPECT_EQ(targets.position(), 0u);
 }
