@@ -123,7 +123,11 @@ Result<AoSettings> read_ao(const proto::AmbientOcclusion& m) {
   if (m.blur().sigma_px() != 0) ao.blur_sigma_px = m.blur().sigma_px();
   LFD_TRY_STATUS(check_range("ao.blur.sigma_px", ao.blur_sigma_px, 0.1, 8));
   LFD_TRY_STATUS(check_range("ao.blur.kind", m.blur().kind(), 0, 1));
-  ao.blur = static_cast<AoBlur>(m.blur().kind());
+  // What modules gather agrees between neighbours; across an outline a Gaussian would mix in what each sees behind it.
+  const bool by_geometry = ao.shared_neighbours > 0 && m.blur().sigma_px() == 0;
+  ao.blur = m.blur().has_kind() ? static_cast<AoBlur>(m.blur().kind())
+            : by_geometry       ? AoBlur::kGeometry
+                                : AoBlur::kGaussian;
   LFD_TRY_STATUS(check_range("ao.blur.taps", m.blur().taps(), 0, 3));
   if (m.blur().taps() > 0) ao.blur_taps = m.blur().taps();
   LFD_TRY_STATUS(check_range("ao.target", m.target(), 0, 1));

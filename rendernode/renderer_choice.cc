@@ -31,10 +31,12 @@ Status Renderer::choose_occlusion(const FrameOptions& options) {
         fmt::format("{}: it is asked for by name, whatever the budget of {:g} ms", asked.method(), asked.budget_ms());
     return {};
   }
-  FrameOptions timed = options;
-  timed.time_modules = timed.reuse = timed.read_back = false;
-  if (!plan(timed).ao) return {};  // nothing is drawn: nothing to time
-  if (!chosen_ || !same_message(chosen_->asked, asked)) LFD_TRY_STATUS(time_candidates(asked, timed));
+  if (!chosen_ || !same_message(chosen_->asked, asked)) {
+    FrameOptions timed = options;
+    timed.time_modules = timed.reuse = timed.read_back = false;
+    if (!plan(timed).ao) return {};  // nothing is drawn: nothing to time
+    LFD_TRY_STATUS(time_candidates(asked, timed));
+  }
   settings_.ao = chosen_->ao;
   occlusion_choice_ = chosen_->why;
   return {};

@@ -23,7 +23,7 @@ constexpr GLint kFinerMip = 1, kFinerSize = 2;                        // of the 
 // How far a blur looks to each side, pixels.
 int reach_of_blur(const AoSettings& ao) {
   if (!ao.blur_enabled) return 0;
-  return ao.blur == AoBlur::kGaussian ? static_cast<int>(gaussian_weights(ao.blur_sigma_px).size()) - 1 : ao.blur_taps;
+  return ao.blur == AoBlur::kGaussian ? gaussian_taps(ao.blur_sigma_px) : ao.blur_taps;
 }
 
 }  // namespace

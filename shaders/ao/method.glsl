@@ -8,6 +8,7 @@
 #include "lib/half_resolution.glsl"
 #include "lib/image_map.glsl"
 #include "lib/sampling.glsl"
+#include "lib/spaces.glsl"
 #include "lib/ao_value.glsl"
 #include "ao/open_directions.glsl"
 #ifdef SHARED
@@ -70,11 +71,7 @@ vec3 noise() { return noise_of_pixel(uvec2(own_pixel() - int(ao.options.y)), uin
 vec4 sample_of(int i) { return samples[i]; }
 #endif
 
-// physical point of a world point counted from the ROI centre
-vec3 physical_from_world(vec3 p) {
-  return vec3(dot(frame.physical_from_world_0, vec4(p, 1.0)), dot(frame.physical_from_world_1, vec4(p, 1.0)),
-              dot(frame.physical_from_world_2, vec4(p, 1.0)));
-}
+vec3 physical_from_world(vec3 p) { return physical_from_world(frame, p); }
 
 // The display's axes in the world, unit. What is random is laid out along them, so that pictures do not know how the world is turned.
 mat3 axes_of_display() {

@@ -8,6 +8,7 @@
 #include "lib/optics.glsl"
 #include "lib/image_map.glsl"
 #include "lib/sampling.glsl"
+#include "lib/spaces.glsl"
 #include "lib/surface_noise.glsl"
 #include "lib/ao_value.glsl"
 
@@ -31,8 +32,7 @@ void main() {
   out_ao = kNoSurface;
   if (own.r < 0.0) return;
   vec3 p = texelFetch(positions, at, 0).xyz, n = normalize(texelFetch(normals, at, 0).xyz);
-  vec3 p_in_physical = vec3(dot(frame.physical_from_world_0, vec4(p, 1.0)), dot(frame.physical_from_world_1, vec4(p, 1.0)),
-                            dot(frame.physical_from_world_2, vec4(p, 1.0)));
+  vec3 p_in_physical = physical_from_world(frame, p);
   float size = pixel_size_at(modules[layer], frame, p_in_physical);
   AoValue sum = leaning(own, n);
   float count = 1.0, band = modules[layer].tangential.w;  // beside its own image a module finds nothing
