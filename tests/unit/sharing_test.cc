@@ -105,7 +105,7 @@ TEST(Sharing, BlursByGeometryUnlessAGaussianIsAskedFor) {
     return read_settings(message)->ao.blur;
   };
   EXPECT_EQ(blur_of(""), AoBlur::kGaussian);
-  EXPECT_EQ(blur_of("shared { open_air: true }"), AoBlur::kGaussian) << "with nobody";
+  EXPECT_EQ(blur_of("shared { neighbours: 0 }"), AoBlur::kGaussian) << "with nobody";
   EXPECT_EQ(blur_of("shared { neighbours: 1 }"), AoBlur::kGeometry);
   EXPECT_EQ(blur_of("shared { neighbours: 1 } blur { taps: 3 }"), AoBlur::kGeometry);
   EXPECT_EQ(blur_of("shared { neighbours: 1 } blur { sigma_px: 2 }"), AoBlur::kGaussian);
