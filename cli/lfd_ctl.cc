@@ -246,7 +246,10 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
   command.add_option("--seed", a.ao_seed, "Of the samples");
   add_numbers(command, "--curve", a.ao_curve, "A,B,C", "Post curve: ao' = 1 - clamp(B ((1 - ao) + A), 0, 1)^C");
-  command.add_option("--blur-kind", a.ao_blur_kind, "By distance in the image, or by normals and depths")
+  command
+      .add_option("--blur-kind", a.ao_blur_kind,
+                  "By distance in the image, or by normals and depths (default: geometry where modules share and no "
+                  "--sigma is given, otherwise gaussian)")
       ->check(CLI::IsMember(names_of(kBlurNames)));
   command.add_option("--sigma", a.ao_sigma_px, "Of the Gaussian blur, pixels")->check(number_within(0.1, 8));
 }

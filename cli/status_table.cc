@@ -57,11 +57,8 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
       ao.samples > 0 ? fmt::format("{} per radius, {}", ao.samples, name_of(kGeneratorNames, message.generator()))
                      : "none",
       ao.least_samples > 0 ? fmt::format(", far away fewer, {} at least", ao.least_samples) : "", ao.seed, ao.curve.a,
-      ao.curve.b, ao.curve.c,
-      !ao.blur_enabled               ? "off"
-      : ao.blur == AoBlur::kGaussian ? fmt::format("Gaussian, sigma {:g} px", ao.blur_sigma_px)
-                                     : fmt::format("by geometry, {} taps a side", ao.blur_taps),
-      ao.guard_band_px, sharing_text(ao), name_of(kTargetNames, message.target()));
+      ao.curve.b, ao.curve.c, blur_text(ao), ao.guard_band_px, sharing_text(ao),
+      name_of(kTargetNames, message.target()));
 }
 
 std::string status_table(const proto::Status& status) {

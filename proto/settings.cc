@@ -147,6 +147,12 @@ double& AoSettings::parameter(std::string_view name) { return parameters[index_o
 
 double AoSettings::parameter(std::string_view name) const { return parameters[index_of(*method, name)]; }
 
+std::string blur_text(const AoSettings& ao) {
+  if (!ao.blur_enabled) return "off";
+  if (ao.blur == AoBlur::kGaussian) return fmt::format("Gaussian, sigma {:g} px", ao.blur_sigma_px);
+  return fmt::format("by geometry, {} taps a side", ao.blur_taps);
+}
+
 std::vector<glm::vec4> AoSettings::sample_set() const {
   if (method->sample_set == nullptr) return {};
   const occlusion::SampleChoice choice{generator, samples, seed};

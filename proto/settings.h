@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,9 +33,9 @@ struct AoSettings {
   std::uint32_t seed = 0;
   occlusion::Curve curve = method->curve;
   bool blur_enabled = true;
-  AoBlur blur = AoBlur::kGaussian;
-  double blur_sigma_px = 1.5;  // of kGaussian
-  int blur_taps = 2;           // of kGeometry, on each side
+  AoBlur blur = AoBlur::kGaussian;  // kGeometry where modules share, see settings.proto
+  double blur_sigma_px = 1.5;       // of kGaussian
+  int blur_taps = 2;                // of kGeometry, on each side
   bool half_resolution = false;
   bool bent_normals = false;
   int guard_band_px = 0;
@@ -61,6 +62,9 @@ struct AoSettings {
     return radius_m > 0 ? radius_m : radius_roi * roi_diagonal_m;
   }
 };
+
+// "off", "Gaussian, sigma 1.5 px", "by geometry, 2 taps a side".
+std::string blur_text(const AoSettings& ao);
 
 struct RenderSettings {
   AoSettings ao;

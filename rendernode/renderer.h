@@ -51,7 +51,8 @@ class Renderer {
   // stays.
   Status set_state(const proto::State& state, const Assets& assets);
 
-  // Submits a frame; at most two may be under way. Errors: no state yet, no memory, a shader that does not compile.
+  // Submits a frame; at most two may be under way. Errors: no state yet, no memory, pictures that GL
+  // cannot draw into, a shader that does not compile.
   Status draw(const FrameOptions& options);
 
   // Frames submitted and not yet collected.

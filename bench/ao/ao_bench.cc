@@ -197,7 +197,7 @@ class Bench {
     return {};
   }
 
-  // From several threads at once.
+  // From several threads at once: only the default of each method writes a strip, and under its own name.
   Result<AoRow> row_of(const JudgedPlace& place, double share, const Rung& rung, const Measurement& seen) const {
     const std::size_t k = index_of(radii_, share);
     LFD_TRY(const RenderSettings settings, read_settings(place.scene->state(rung.settings).render()));

@@ -14,7 +14,7 @@ bool is_same_place(const AoRow& a, const AoRow& b) {
   return a.scene == b.scene && a.module == b.module && a.radius_share == b.radius_share;
 }
 
-// The most accurate rung of one module that takes no more time and is blurred alike; null where none does.
+// The most accurate rung of one module that takes no more time and is blurred too, or neither is; null where none does.
 const AoRow* best_alone(const AoTable& table, const AoRow& shared) {
   const AoRow* best = nullptr;
   for (const AoRow& row : table.rows) {
@@ -46,7 +46,7 @@ const AoRow* find(const AoTable& table, const AoRow& like, const std::string& na
   return found == table.rows.end() ? nullptr : &*found;
 }
 
-// 4 directions shared against 32 alone, blur off; and what the default blur leaves inconsistent.
+// 4 directions shared against 32 alone, blur off; and what the blur that sharing comes with leaves inconsistent.
 std::string goal_text(const AoTable& table) {
   std::string text;
   for (const AoRow& few : table.rows) {
@@ -60,7 +60,7 @@ std::string goal_text(const AoTable& table) {
   if (text.empty()) return "";
   return "\n`march`, 4 directions x 4 steps over +-4 modules, against 32 x 4 of one module: MAE without blur, "
          "unfitted; time over time (both over `sphere` in\n"
-         "the same round); inconsistent points with the default blur, unfitted.\n\n"
+         "the same round); inconsistent points with the blur that sharing comes with (by geometry), unfitted.\n\n"
          "| scene | MAE, shared | MAE, alone | time, shared over alone | inconsistent, blurred "
          "|\n|---|---|---|---|---|\n" +
          text;

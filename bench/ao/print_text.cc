@@ -205,7 +205,8 @@ std::string scaling_text(const std::vector<ScalingRow>& rows, const char* title,
 
 std::string front_table(const AoTable& table) {
   std::string text =
-      "\n## The front that nodes choose from\n\nMeans over all scenes, modules and radii, default blur.\n\n| settings "
+      "\n## The front that nodes choose from\n\nMeans over all scenes, modules and radii, each with its own blur.\n\n| "
+      "settings "
       "| x | fitted MAE |\n|---|---|---|\n";
   const proto::OcclusionFront front = front_of(table);
   for (const auto& entry : front.entry())

@@ -29,7 +29,7 @@ Json subject_json(const FrameSubject& s) {
             {"parameters", parameters},
             {"seed", s.ao.seed},
             {"curve", {s.ao.curve.a, s.ao.curve.b, s.ao.curve.c}},
-            {"blur_sigma_px", s.ao.blur_enabled ? Json(s.ao.blur_sigma_px) : Json()}}},
+            {"blur", blur_text(s.ao)}}},
           {"renderer", s.renderer},
           {"version", s.version},
           {"commit", s.commit},

@@ -25,8 +25,7 @@ std::string subject_text(const FrameSubject& s, int frames) {
       fmt::format("display    {}, module {} of {}, {}x{} px\n", s.display, s.module, s.modules, s.image.width,
                   s.image.height) +
       fmt::format("occlusion  R {:.6g} m in the world ({:.3g} of the ROI diagonal), {} samples, {} radii, blur {}\n",
-                  s.ao_radius_m, s.ao_radius_m / s.roi_diagonal_m, s.ao.samples, s.ao.radii,
-                  s.ao.blur_enabled ? fmt::format("sigma {} px", s.ao.blur_sigma_px) : "off");
+                  s.ao_radius_m, s.ao_radius_m / s.roi_diagonal_m, s.ao.samples, s.ao.radii, blur_text(s.ao));
   text += fmt::format("renderer   {}\n", s.renderer);
   text += fmt::format("program    {}, commit {}; geometry built once in {:.0f} ms\n", s.version, s.commit,
                       s.geometry_build_ms);

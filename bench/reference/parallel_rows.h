@@ -1,4 +1,4 @@
-// Rows of an image, worked on by every core; what a row computes must not depend on other rows.
+// Rows of an image or of a table, worked on by every core; what a row computes must not depend on other rows.
 #pragma once
 
 #include <algorithm>

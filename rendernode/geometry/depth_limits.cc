@@ -79,7 +79,8 @@ DepthLimits depth_limits(const DisplayCalibration& display, const RenderSettings
     least_w = std::min(least_w, w_at_depth(display.optics, module.emitter, s, limits.back));
   });
   limits.singular = std::min(singular, limits.back - 1e-3 * (limits.front - limits.back));
-  limits.depth_scale = std::max(least_w, 1e-9) / (limits.front - limits.back);
+  constexpr double kBeforeFar = 0.9999;  // the depth buffer's far end, 1, is left to pixels without a surface
+  limits.depth_scale = kBeforeFar * std::max(least_w, 1e-9) / (limits.front - limits.back);
   return limits;
 }
 

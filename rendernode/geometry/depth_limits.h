@@ -11,7 +11,7 @@ namespace lfd {
 struct DepthLimits {
   double front = 0, back = 0;
   bool in_z = true;        // depth is z: geometry can be cut in space. On a curved screen pixels are left out instead
-  double depth_scale = 1;  // clip.z = depth_scale (front - depth); at most w everywhere between the limits
+  double depth_scale = 1;  // clip.z = depth_scale (front - depth); less than w everywhere between the limits
   // Physical box of all that any pixel can show between the limits, with a wide margin in x and y (on a curved screen
   // in z too): what reaches beyond is cut there, for single precision does not hold the corners of very large
   // triangles.

@@ -206,13 +206,17 @@ Status FramePasses::gbuffer(const FramePlan& plan, const CommandList& commands, 
 }
 
 void FramePasses::draw_layers(const CommandList& commands, const char* pass, PassTimers& timers) {
-  glBindVertexArray(empty_array_.name());
   for (const auto& batch : commands.batches) {
     timers.begin(pass, batch.layers);
-    glUniform1i(kFirstLayer, static_cast<GLint>(batch.first_layer));
-    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(batch.layer_count));
+    draw_layers_of(batch);
     timers.end();
   }
+}
+
+void FramePasses::draw_layers_of(const Batch& batch) {
+  glBindVertexArray(empty_array_.name());
+  glUniform1i(kFirstLayer, static_cast<GLint>(batch.first_layer));
+  glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(batch.layer_count));
 }
 
 Status FramePasses::post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,

@@ -57,6 +57,10 @@ class FramePasses {
   Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
               PassTimers& timers);
   void draw_layers(const CommandList& commands, const char* pass, PassTimers& timers);
+  void draw_layers_of(const Batch& batch);
+  // The same of pixels with a surface alone, for which the framebuffer knows the geometry's depth; the others have
+  // none.
+  void draw_occlusion(const CommandList& commands, const char* pass, PassTimers& timers, GLuint framebuffer);
 
   std::map<std::string, gl::Program> programs_;
   gl::VertexArray surface_array_, empty_array_;

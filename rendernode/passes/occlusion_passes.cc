@@ -1,6 +1,7 @@
 // The passes of ambient occlusion: pyramid, the method itself, from half the resolution to the full one, what
 // neighbours found, blur.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/log.h"
@@ -50,6 +51,22 @@ Status FramePasses::pyramid(const FramePlan& plan, const CommandList& commands, 
   return {};
 }
 
+void FramePasses::draw_occlusion(const CommandList& commands, const char* pass, PassTimers& timers,
+                                 GLuint framebuffer) {
+  constexpr std::array<float, 4> kNoSurface{-1, 0, 0, 0};  // of lib/ao_value.glsl
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_GREATER);
+  for (const Batch& batch : commands.batches) {
+    timers.begin(pass, batch.layers);
+    if (&batch == &commands.batches.front()) glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, kNoSurface.data());
+    draw_layers_of(batch);
+    timers.end();
+  }
+  glDisable(GL_DEPTH_TEST);
+}
+
 Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs,
                                       const Targets& targets, PassTimers& timers) {
   const occlusion::Method& method = *inputs.settings.ao.method;
@@ -72,8 +89,6 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   LFD_TRY(const GLuint name, program({"passes/layers.vert", fmt::format("ao/{}.frag", method.name)}, flags));
   glUseProgram(name);
   const ImageSize size = plan.upsample ? targets.half_size() : targets.size();
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER,
-                    plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(plan.share ? 1 : 0));
   glViewport(0, 0, size.width, size.height);
   glBindTextureUnit(UNIT_POSITION, targets.position());
   if (reads_normal) glBindTextureUnit(UNIT_NORMAL, targets.normal());
@@ -81,7 +96,8 @@ Status FramePasses::ambient_occlusion(const FramePlan& plan, const CommandList& 
   {
     const int reach = reach_of_blur(inputs.settings.ao);
     const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach}, plan.upsample);
-    draw_layers(commands, "ao", timers);
+    draw_occlusion(commands, "ao", timers,
+                   plan.upsample ? targets.half_ao_framebuffer() : targets.ao_framebuffer(plan.share ? 1 : 0));
   }
   glViewport(0, 0, targets.size().width, targets.size().height);
   return plan.upsample ? upsample(plan, commands, inputs.settings.ao, targets, timers) : Status();
@@ -91,12 +107,11 @@ Status FramePasses::upsample(const FramePlan& plan, const CommandList& commands,
                              const Targets& targets, PassTimers& timers) {
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_upsample.frag"}, flags_of(plan)));
   glUseProgram(name);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(plan.share ? 1 : 0));
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
   glBindTextureUnit(UNIT_AO, targets.half_ao());
   const int reach = reach_of_blur(ao);
   const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach});
-  draw_layers(commands, "ao_upsample", timers);
+  draw_occlusion(commands, "ao_upsample", timers, targets.ao_framebuffer(plan.share ? 1 : 0));
   return {};
 }
 
@@ -106,13 +121,12 @@ Status FramePasses::share(const FramePlan& plan, const CommandList& commands, co
   if (inputs.modules.warp_tables) flags.emplace_back("WARP_TABLE");
   LFD_TRY(const GLuint name, program({"passes/layers.vert", "passes/ao_share.frag"}, flags));
   glUseProgram(name);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(0));
   glBindTextureUnit(UNIT_POSITION, targets.position());
   glBindTextureUnit(UNIT_NORMAL, targets.normal());
   glBindTextureUnit(UNIT_AO, targets.ao(1));
   const int reach = reach_of_blur(inputs.settings.ao);
   const Scissor near_own_image(plan.guard_band_px, targets.size(), {reach, reach});
-  draw_layers(commands, "share", timers);
+  draw_occlusion(commands, "share", timers, targets.ao_framebuffer(0));
   return {};
 }
 
@@ -132,11 +146,10 @@ Status FramePasses::blur(const FramePlan& plan, const CommandList& commands, con
     glBindTextureUnit(UNIT_POSITION, targets.position());
   }
   for (int i = 0; i < 2; ++i) {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, targets.ao_framebuffer(1 - i));
     glBindTextureUnit(UNIT_AO, targets.ao(i));
     glUniform2i(kBlurDirection, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
     const Scissor near_own_image(plan.guard_band_px, targets.size(), {0, i == 0 ? reach_of_blur(ao) : 0});
-    draw_layers(commands, i == 0 ? "blur_horizontal" : "blur_vertical", timers);
+    draw_occlusion(commands, i == 0 ? "blur_horizontal" : "blur_vertical", timers, targets.ao_framebuffer(1 - i));
   }
   return {};
 }

@@ -40,7 +40,7 @@ Status PositionPyramid::prepare(int factor, int levels, ImageSize full, int laye
   return made;
 }
 
-Status PositionPyramid::make_framebuffers(const std::string& what) {
+Status PositionPyramid::make_framebuffers(std::string_view what) {
   LFD_TRY_STATUS(gl::memory_status(what));
   const std::array<GLuint, 1> colors{position_.name()};
   for (std::size_t mip = 0; mip < levels_.size(); ++mip) {

@@ -1,7 +1,7 @@
 // Positions at ever lower resolutions, for methods of ambient occlusion that read far away coarsely.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -19,8 +19,8 @@ class PositionPyramid {
     gl::Framebuffer framebuffer;
   };
 
-  // Makes so many levels, all anew where there are fewer, or of another factor. Error: the GPU has no memory for them;
-  // then nothing is kept.
+  // Makes so many levels, all anew where there are fewer, or of another factor. Error: the GPU has no memory for them
+  // or cannot draw into them; then nothing is kept.
   Status prepare(int factor, int levels, ImageSize full, int layers);
 
   const std::vector<Level>& levels() const { return levels_; }
@@ -28,7 +28,7 @@ class PositionPyramid {
   GLuint position() const { return position_.name(); }
 
  private:
-  Status make_framebuffers(const std::string& what);
+  Status make_framebuffers(std::string_view what);
 
   int factor_ = 0;
   gl::Texture position_;

@@ -9,13 +9,17 @@
 namespace lfd {
 
 Status Targets::prepare(const FramePlan& plan) {
-  if (plan.pyramid_levels > 0)
-    LFD_TRY_STATUS(pyramid_.prepare(plan.pyramid_factor, plan.pyramid_levels, size_, layers_));
-  const std::string what = fmt::format("the pictures of {} modules of {}x{}", layers_, size_.width, size_.height);
-  if (!make_textures(plan) && geometry(plan) != 0) return {};
-  Status made = make_framebuffers(plan, what);
+  Status made = make(plan);
   if (!made) *this = Targets(size_, layers_);
   return made;
+}
+
+Status Targets::make(const FramePlan& plan) {
+  if (plan.pyramid_levels > 0)
+    LFD_TRY_STATUS(pyramid_.prepare(plan.pyramid_factor, plan.pyramid_levels, size_, layers_));
+  if (!make_textures(plan) && geometry(plan) != 0) return {};
+  return make_framebuffers(plan,
+                           fmt::format("the pictures of {} modules of {}x{}", layers_, size_.width, size_.height));
 }
 
 bool Targets::make_textures(const FramePlan& plan) {
@@ -46,21 +50,21 @@ void Targets::drop_ao(bool bent) {
   bent_ = bent;
 }
 
-Status Targets::make_framebuffers(const FramePlan& plan, const std::string& what) {
+Status Targets::make_framebuffers(const FramePlan& plan, std::string_view what) {
   LFD_TRY_STATUS(gl::memory_status(what));
-  const auto make = [&](gl::Framebuffer& framebuffer, const gl::Texture& color) -> Status {
+  const auto make = [&](gl::Framebuffer& framebuffer, const gl::Texture& color, GLuint depth) -> Status {
     if (framebuffer || !color) return {};
     const std::array<GLuint, 1> colors{color.name()};
-    LFD_TRY(framebuffer, gl::make_layered_framebuffer(colors, 0, what));
+    LFD_TRY(framebuffer, gl::make_layered_framebuffer(colors, depth, what));
     return {};
   };
   if (!depth_framebuffer_) {
     LFD_TRY(depth_framebuffer_, gl::make_layered_framebuffer({}, depth_.name(), what));
   }
-  LFD_TRY_STATUS(make(ao_framebuffer_[0], ao_[0]));
-  LFD_TRY_STATUS(make(ao_framebuffer_[1], ao_[1]));
-  LFD_TRY_STATUS(make(half_ao_framebuffer_, half_ao_));
-  LFD_TRY_STATUS(make(color_framebuffer_, color_));
+  LFD_TRY_STATUS(make(ao_framebuffer_[0], ao_[0], depth_.name()));
+  LFD_TRY_STATUS(make(ao_framebuffer_[1], ao_[1], depth_.name()));
+  LFD_TRY_STATUS(make(half_ao_framebuffer_, half_ao_, 0));
+  LFD_TRY_STATUS(make(color_framebuffer_, color_, 0));
   gl::Framebuffer& geometry_framebuffer = geometry_framebuffer_[plan.position ? 1 : 0][plan.normal ? 1 : 0];
   if (geometry_framebuffer) return {};
   const std::array<GLuint, 3> colors{albedo_.name(), plan.position ? position_.name() : 0,

@@ -1,7 +1,7 @@
 // The pictures that passes write: array textures with one layer per module, made when a plan first needs them.
 #pragma once
 
-#include <string>
+#include <string_view>
 
 #include "base/result.h"
 #include "rendernode/gl/objects.h"
@@ -43,14 +43,16 @@ class Targets {
   GLuint geometry(const FramePlan& plan) const {
     return geometry_framebuffer_[plan.position ? 1 : 0][plan.normal ? 1 : 0].name();
   }
+  // With the geometry's depth.
   GLuint ao_framebuffer(int i) const { return ao_framebuffer_[i].name(); }
   GLuint color_framebuffer() const { return color_framebuffer_.name(); }
   const PositionPyramid& pyramid() const { return pyramid_; }
 
  private:
+  Status make(const FramePlan& plan);         // may leave some of it
   bool make_textures(const FramePlan& plan);  // whether any was missing
   void drop_ao(bool bent);                    // those made next are so
-  Status make_framebuffers(const FramePlan& plan, const std::string& what);
+  Status make_framebuffers(const FramePlan& plan, std::string_view what);
 
   ImageSize size_;
   int layers_;

@@ -1,5 +1,6 @@
 // The special screen forward and backward: GLSL twins of calibration/optics.h and calibration/curved_screen.h. Software rasterisers
 // compute both sides of every condition, so what no module has may be left out: flags PLANAR_SCREEN, LINEAR_DIFFUSER.
+#include "lib/series.glsl"
 
 // k of the conical and linear diffuser for a screen point at height sy.
 float convergence(ModuleParams m, float sy) {
@@ -42,30 +43,6 @@ vec2 curved_ray(ModuleParams m, vec2 from, vec2 direction) {
   return vec2(rise_through(m, from, direction, 0.0), to_observers);
 }
 
-// GLSL promises of atan, sin and cos a small absolute error only, and GPUs keep to that: 1e-7 rad on a screen of radius 1e6 m are 0.1 m.
-// Series and halved angles keep the relative error within a few roundings, and so do nearly planar screens.
-
-// atan(t) / t. Two halvings leave t below tan(pi / 8), where eight terms of the series are 4e-8 off.
-float atan_over(float t) {
-  float first = 1.0 + sqrt(1.0 + t * t);
-  float half_t = t / first;
-  float second = 1.0 + sqrt(1.0 + half_t * half_t);
-  float quarter_t = half_t / second;
-  float x = quarter_t * quarter_t;
-  float series = 1.0 / 13.0 - x / 15.0;
-  series = 1.0 / 9.0 - x * (1.0 / 11.0 - x * series);
-  series = 1.0 - x * (1.0 / 3.0 - x * (1.0 / 5.0 - x * (1.0 / 7.0 - x * series)));
-  return 4.0 * series / (first * second);
-}
-
-// sin(a) / a and cos(a) for at most a right angle, 1e-9 off.
-vec2 sine_over_and_cosine(float a) {
-  float x = a * a;
-  return vec2(1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0 * (1.0 - x / 156.0))))),
-              1.0 - x / 2.0 * (1.0 - x / 12.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0 * (1.0 - x / 132.0 *
-                (1.0 - x / 182.0)))))));
-}
-
 // Where a physical point is shown: screen point (xy), weight w (z) and depth in metres (w). No image: weight <= 0, or a depth beyond
 // the observers.
 vec4 screen_from_physical(ModuleParams m, vec3 p) {
@@ -95,7 +72,7 @@ float depth_of(ModuleParams m, vec3 p) { return is_curved(m) ? screen_from_physi
 // A point of the screen's surface in space.
 vec3 surface_point(ModuleParams m, vec2 s) {
   if (!is_curved(m)) return vec3(s, 0.0);
-  float half_angle = 0.5 * m.surface.x * s.x;
+  float half_angle = 0.5 * m.surface.x * s.x;  // at most pi / 4 on the half that faces the viewer
   vec2 turn = sine_over_and_cosine(half_angle);
   float chord = s.x * turn.x;
   return vec3(chord * turn.y, s.y, -chord * turn.x * half_angle);

@@ -76,11 +76,8 @@ const std::vector<Variant>& variants() {
   static const std::vector<Variant> kAll{
       {"defaults", [](auto&) {}},
       {"no blur", [](auto& ao) { ao.mutable_blur()->set_enabled(false); }},
-      {"half resolution, blur by geometry",
-       [](auto& ao) {
-         ao.set_half_resolution(true);
-         ao.mutable_blur()->set_kind(proto::AmbientOcclusion::Blur::GEOMETRY);
-       }},
+      {"Gaussian", [](auto& ao) { ao.mutable_blur()->set_kind(proto::AmbientOcclusion::Blur::GAUSSIAN); }},
+      {"half resolution", [](auto& ao) { ao.set_half_resolution(true); }},
       {"open air, three radii",
        [](auto& ao) {
          ao.mutable_shared()->set_open_air(true);
@@ -126,7 +123,8 @@ TEST(AoShareUse, AModuleAloneDrawsAsIfNothingWereShared) {
   Renderer renderer(context(), display, {3});
   const FrameResult shared = draw_once(renderer, state_of(data, roi, shared_march(4, 2)), data.assets, kOptions);
   auto nothing_shared = shared_march(4, 0);
-  nothing_shared.mutable_ao()->mutable_blur()->set_kind(proto::AmbientOcclusion::Blur::GEOMETRY);  // as of what is
+  nothing_shared.mutable_ao()->mutable_blur()->set_kind(
+      proto::AmbientOcclusion::Blur::GEOMETRY);  // as shared findings are
   const FrameResult alone = draw_once(renderer, state_of(data, roi, nothing_shared), data.assets, kOptions);
   expect_same(shared, alone, "one module");
 }

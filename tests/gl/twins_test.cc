@@ -1,6 +1,7 @@
 // GPU functions equal their C++ twins: optics and maps.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <random>
@@ -142,6 +143,23 @@ TEST(Twins, Distortion) {
       // The result is of the size of its argument, at most 0.5; a dozen roundings.
       ASSERT_LE(glm::length(glm::dvec2(found[i].x, found[i].y) - expected), 12 * 0.5 * kEpsilon);
     }
+  }
+}
+
+// From angles that nearly planar screens have to a right angle.
+TEST(Twins, SeriesOfAngles) {
+  std::vector<glm::vec4> inputs;
+  for (double angle = 1e-12; angle < 1.57; angle = std::min(1.1 * angle, angle + 0.01))
+    inputs.emplace_back(static_cast<float>(angle), static_cast<float>(std::tan(angle)), 0, 0);
+  const auto found = compute("#include \"lib/series.glsl\"",
+                             "b[0] = vec4(sine_over_and_cosine(a.x), atan_over(a.y), 0.0);", inputs, 1);
+  ASSERT_EQ(found.size(), inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double a = inputs[i].x, t = inputs[i].y;
+    // A few roundings of numbers of size 1; the cosine is a difference of such.
+    ASSERT_NEAR(found[i].x / (std::sin(a) / a), 1, 4 * kEpsilon) << a;
+    ASSERT_NEAR(found[i].y, std::cos(a), 4 * kEpsilon) << a;
+    ASSERT_NEAR(found[i].z / (std::atan(t) / t), 1, 8 * kEpsilon) << t;
   }
 }
 

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "calibration/make.h"
-#include "proto/text_file.h"
 #include "rendernode/passes/gpu_sharing.h"
 
 namespace lfd {
@@ -96,21 +95,6 @@ AoSettings settings_of(const char* method, int samples) {
   auto settings = read_settings(message);
   LFD_CHECK(settings, settings.error().message());
   return settings->ao;
-}
-
-TEST(Sharing, BlursByGeometryUnlessAGaussianIsAskedFor) {
-  const auto blur_of = [](const char* text) {
-    proto::RenderSettings message;
-    LFD_CHECK(parse_text(text, "ao", *message.mutable_ao()), "it is a message");
-    return read_settings(message)->ao.blur;
-  };
-  EXPECT_EQ(blur_of(""), AoBlur::kGaussian);
-  EXPECT_EQ(blur_of("shared { neighbours: 0 }"), AoBlur::kGaussian) << "with nobody";
-  EXPECT_EQ(blur_of("shared { neighbours: 1 }"), AoBlur::kGeometry);
-  EXPECT_EQ(blur_of("shared { neighbours: 1 } blur { taps: 3 }"), AoBlur::kGeometry);
-  EXPECT_EQ(blur_of("shared { neighbours: 1 } blur { sigma_px: 2 }"), AoBlur::kGaussian);
-  EXPECT_EQ(blur_of("shared { neighbours: 1 } blur { kind: GAUSSIAN }"), AoBlur::kGaussian);
-  EXPECT_EQ(blur_of("blur { kind: GEOMETRY }"), AoBlur::kGeometry);
 }
 
 using Numbers = std::multiset<std::tuple<float, float, float, float>>;
