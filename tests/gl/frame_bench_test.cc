@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
 #include "base/log.h"
+#include "base/temporary_folder.h"
 #include "bench/frame/print.h"
 #include "tests/support/rendering.h"
 
@@ -22,8 +22,8 @@ using testing_support::context;
 
 // A small display in front of two walls and a floor.
 FrameBenchOptions corner_on_desk() {
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / fmt::format("lfd-frame-bench-{}.textproto", getpid());
+  static const TemporaryFolder kFolder{"lfd-frame-bench"};
+  const std::filesystem::path path = kFolder.path() / "corner.textproto";
   const Status written = write_file(path, "name: \"corner\"\ndisplay: \"" LFD_SOURCE_DIR
                                           "/configs/displays/desk.textproto\"\nscene { made { name: \"corner\" } }\n"
                                           "node { name: \"only\" }\n");
