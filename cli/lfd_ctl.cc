@@ -125,7 +125,7 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
       ao.clear_parameter();
       ao.clear_curve();
       ao.clear_samples();
-      ao.clear_shared();
+      if (ao.has_shared()) ao.mutable_shared()->set_open_air(false);  // not of every method
     }
   }
   for (const auto& [name, value] : arguments.ao_parameters) (*ao.mutable_parameter())[name] = value;
@@ -221,11 +221,12 @@ void add_ao_options(CLI::App& command, Arguments& a) {
   command
       .add_option("--budget", a.ao_budget_ms,
                   "Milliseconds of GPU time for all modules of a node: without --method every node takes the most "
-                  "accurate settings that it draws in this time (0: no budget)")
+                  "accurate settings that it draws in this time; method, parameters, samples and "
+                  "curve are forgotten (0: no budget)")
       ->check(number_within(0, 1e6));
   add_parameters(command, a);
   command.add_option("--radius", a.ao_radius_m, "Radius in the world, metres (0: a share of the region of interest)")
-      ->check(number_within(0, 1e30));
+      ->check(number_within(0, 1e15));
   command.add_option("--samples", a.ao_samples, "Samples per radius")->check(whole_number_within(1, 256));
   command
       .add_option("--least-samples", a.ao_least_samples,

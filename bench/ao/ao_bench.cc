@@ -106,11 +106,14 @@ class Bench {
   Status load_places() {
     LFD_TRY(const auto scenes, load_scenes());
     for (const auto& scene : scenes) {
-      const auto count = static_cast<std::uint32_t>(scene->display().modules.size());
-      for (const auto& [module, kind] : modules_of(count)) {
+      const std::size_t count = scene->display().modules.size();
+      for (const std::uint32_t module : options_.modules) {
         if (module >= count) return Error(fmt::format("module {}: the display has {}", module, count));
-        LFD_TRY_STATUS(add_place(scene, module, kind));
       }
+    }
+    for (const auto& scene : scenes) {
+      for (const auto& [module, kind] : modules_of(static_cast<std::uint32_t>(scene->display().modules.size())))
+        LFD_TRY_STATUS(add_place(scene, module, kind));
     }
     return {};
   }
