@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "base/log.h"
+#include "proto/module_ranges.h"
 
 namespace lfd {
 namespace {

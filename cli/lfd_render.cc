@@ -11,6 +11,7 @@
 #include "cli/lfd_commands.h"
 #include "cli/report.h"
 #include "proto/frame_files.h"
+#include "proto/module_ranges.h"
 
 namespace lfd {
 namespace {

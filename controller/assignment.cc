@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "proto/module_ranges.h"
+
 namespace lfd::controller {
 
 Result<Assignment> assign_modules(const Deployment& deployment, const std::vector<std::string>& only) {

@@ -8,6 +8,7 @@
 #include "calibration/guard_band.h"
 #include "proto/calibration_file.h"
 #include "proto/settings.h"
+#include "proto/state.h"
 #include "proto/wire/socket.h"
 
 namespace lfd::controller {
@@ -16,19 +17,12 @@ namespace {
 constexpr std::size_t kMostStateBytes =
     wire::kSmallMessages.max_part_bytes - (std::size_t{1} << 20);  // beside the rest
 
-// Settings that can be drawn with this region of interest and images of this size.
-Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi, ImageSize image) {
-  LFD_TRY(const RenderSettings settings, read_settings(render));
-  if (const Status fits = check_guard_band(image, settings.ao.guard_band_px); !fits)
-    return fits.error().within("ao.guard_band_px");
-  return check_radius(settings.ao, roi);
-}
-
 }  // namespace
 
 Stage::Stage(const Deployment& deployment)
     : screen_(deployment.display.screen),
       image_(deployment.display.image),
+      module_count_(static_cast<int>(deployment.display.modules.size())),
       display_bytes_(write_calibration(deployment.display).ByteSizeLong()),
       animation_frames_per_second_(deployment.animation_frames_per_second),
       wished_roi_(deployment.message.roi()),
@@ -45,9 +39,17 @@ Result<RegionOfInterest> Stage::complete(const proto::RegionOfInterest& wish, co
   return complete_roi(wish, scene, screen_);
 }
 
+Status Stage::check_together(const proto::RenderSettings& render, const RegionOfInterest& roi) const {
+  LFD_TRY(const RenderSettings settings, read_settings(render));
+  if (const Status fits = check_guard_band(image_, settings.ao.guard_band_px); !fits)
+    return fits.error().within("ao.guard_band_px");
+  LFD_TRY_STATUS(check_modules(settings.pattern, module_count_));
+  return check_radius(settings.ao, roi);
+}
+
 Result<proto::Update> Stage::show(LoadedScene scene) {
   LFD_TRY(const RegionOfInterest roi, complete(wished_roi_, scene.data.scene));
-  LFD_TRY_STATUS(check_together(render_, roi, image_));
+  LFD_TRY_STATUS(check_together(render_, roi));
   const std::size_t bytes = scene.data.scene.ByteSizeLong() + display_bytes_;
   if (bytes > kMostStateBytes) {
     return Error(fmt::format("{} MiB of instances, materials and measured maps; nodes are sent at most {} MiB at once",
@@ -65,7 +67,7 @@ Result<proto::Update> Stage::show(LoadedScene scene) {
 Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
   if (!has_scene()) return Error("no scene is there yet");
   LFD_TRY(const RegionOfInterest roi, complete(wish, scene_->data.scene));
-  LFD_TRY_STATUS(check_together(render_, roi, image_));
+  LFD_TRY_STATUS(check_together(render_, roi));
   roi_ = roi;
   wished_roi_ = wish;
   proto::Update update;
@@ -75,7 +77,7 @@ Result<proto::Update> Stage::set_roi(const proto::RegionOfInterest& wish) {
 
 Result<proto::Update> Stage::set_render(const proto::RenderSettings& render) {
   if (!has_scene()) return Error("no scene is there yet");
-  LFD_TRY_STATUS(check_together(render, roi_, image_));
+  LFD_TRY_STATUS(check_together(render, roi_));
   render_ = render;
   proto::Update update;
   *update.mutable_render() = render_;
@@ -85,6 +87,16 @@ Result<proto::Update> Stage::set_render(const proto::RenderSettings& render) {
 Result<proto::Update> Stage::set_ao(const proto::AmbientOcclusion& ao) {
   proto::RenderSettings render = render_;
   *render.mutable_ao() = ao;
+  return set_render(render);
+}
+
+Result<proto::Update> Stage::set_pattern(const proto::TestPattern& pattern) {
+  proto::RenderSettings render = render_;
+  if (same_message(pattern, proto::TestPattern())) {
+    render.clear_pattern();
+  } else {
+    *render.mutable_pattern() = pattern;
+  }
   return set_render(render);
 }
 

@@ -30,7 +30,8 @@ class Stage {
   Result<proto::Update> set_roi(const proto::RegionOfInterest& wish);  // boxes left out follow from the scene's bounds
   Result<proto::Update> set_render(const proto::RenderSettings& render);
   Result<proto::Update> set_ao(const proto::AmbientOcclusion& ao);
-  std::optional<proto::Update> set_buffers(std::uint32_t buffers);  // absent: they are those already
+  Result<proto::Update> set_pattern(const proto::TestPattern& pattern);  // without a kind: the scene again
+  std::optional<proto::Update> set_buffers(std::uint32_t buffers);       // absent: they are those already
 
   // An update that changes nothing of the state (where the display is), numbered like the others.
   proto::Update number(proto::Update update) { return store_.change(std::move(update)); }
@@ -42,9 +43,12 @@ class Stage {
  private:
   Stage(const Deployment& deployment);
   Result<RegionOfInterest> complete(const proto::RegionOfInterest& wish, const proto::Scene& scene) const;
+  // Settings that can be drawn on this display with this region of interest.
+  Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi) const;
 
   ScreenSize screen_;
   ImageSize image_;
+  int module_count_;
   std::size_t display_bytes_;  // of the display in a message
   double animation_frames_per_second_;
   proto::RegionOfInterest wished_roi_;

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <map>
-#include <numeric>
 
 #include "base/log.h"
 #include "calibration/guard_band.h"
 #include "proto/calibration_file.h"
 #include "proto/endpoint.h"
+#include "proto/module_ranges.h"
 #include "proto/text_file.h"
 
 namespace lfd {
@@ -186,6 +185,11 @@ Check read_drawing(Deployment& deployment) {
     const std::string road = "render: ao.guard_band_px";
     return Fault{road, fits.error().within(road)};
   }
+  const int module_count = static_cast<int>(deployment.display.modules.size());
+  if (const Status there = check_modules(render->pattern, module_count); !there) {
+    const Error error = there.error().within("render");
+    return Fault{error.message(), error};
+  }
   const ScreenSize screen = deployment.display.screen;
   const auto roi = complete_roi(m.roi(), {-1, -1, -1}, {1, 1, 1}, screen.width_m, screen.height_m);
   if (!roi) return Fault{roi.error().message(), roi.error()};
@@ -212,27 +216,7 @@ Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
   return std::nullopt;
 }
 
-std::optional<int> parse_number(std::string_view text) {
-  int number = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (failure != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
-}
-
 }  // namespace
-
-Result<std::vector<int>> parse_module_range(std::string_view text, int module_count) {
-  const std::size_t dash = text.find('-');
-  const auto first_number = parse_number(text.substr(0, dash));
-  const auto last_number = dash == text.npos ? first_number : parse_number(text.substr(dash + 1));
-  if (!first_number || !last_number) return Error(fmt::format("\"{}\" is neither a module number nor a range", text));
-  const int first = *first_number, last = *last_number;
-  if (last < first) return Error(fmt::format("\"{}\" runs backwards", text));
-  if (last >= module_count) return Error(fmt::format("{}; the display has modules 0 to {}", last, module_count - 1));
-  std::vector<int> modules(static_cast<std::size_t>(last - first + 1));
-  std::iota(modules.begin(), modules.end(), first);
-  return modules;
-}
 
 std::vector<int> unowned_modules(const Deployment& deployment) {
   std::vector<bool> owned(deployment.display.modules.size());
@@ -244,18 +228,6 @@ std::vector<int> unowned_modules(const Deployment& deployment) {
     if (!owned[module]) unowned.push_back(static_cast<int>(module));
   }
   return unowned;
-}
-
-std::string module_ranges(std::span<const int> modules) {
-  std::string text;
-  for (std::size_t first = 0; first < modules.size();) {
-    std::size_t last = first;
-    while (last + 1 < modules.size() && modules[last + 1] == modules[last] + 1) ++last;
-    if (!text.empty()) text += ",";
-    text += last == first ? fmt::format("{}", modules[first]) : fmt::format("{}-{}", modules[first], modules[last]);
-    first = last + 1;
-  }
-  return text;
 }
 
 std::vector<std::vector<int>> equal_shares(int module_count, int nodes) {

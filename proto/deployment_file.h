@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -64,12 +63,6 @@ Result<Deployment> load_deployment(const std::filesystem::path& path, const Depl
 
 // Modules of the display that no node draws, ascending.
 std::vector<int> unowned_modules(const Deployment& deployment);
-
-// Ascending numbers in ranges: "0-3,7".
-std::string module_ranges(std::span<const int> modules);
-
-// "0-15" or "17" as ascending numbers, each below `module_count`.
-Result<std::vector<int>> parse_module_range(std::string_view text, int module_count);
 
 // Shares of modules 0..module_count-1 among so many nodes: contiguous, ascending, sizes that differ by one at most.
 std::vector<std::vector<int>> equal_shares(int module_count, int nodes);

@@ -7,15 +7,11 @@
 #include "base/check.h"
 #include "base/log.h"
 #include "base/suggest.h"
+#include "proto/check_range.h"
 #include "proto/occlusion/sample_sets.h"
 
 namespace lfd {
 namespace {
-
-Status check_range(const char* field, double value, double low, double high) {
-  if (value >= low && value <= high) return {};
-  return Error(fmt::format("{}: {}; {} to {} are possible", field, value, low, high));
-}
 
 template <class S>
 Point3<S> point_from(const proto::Vector& v) {
@@ -191,6 +187,7 @@ Result<RenderSettings> read_settings(const proto::RenderSettings& m) {
                              *settings.near_z_m));
   }
   settings.unlit = m.unlit();
+  LFD_TRY(settings.pattern, read_pattern(m.pattern()));
   return settings;
 }
 

@@ -12,6 +12,7 @@
 #include "calibration/maps/ideal.h"
 #include "calibration/spaces/roi.h"
 #include "proto/occlusion/method.h"
+#include "proto/pattern.h"
 #include "proto/scene.pb.h"
 #include "proto/settings.pb.h"
 
@@ -76,6 +77,7 @@ struct RenderSettings {
   bool interpolated_position = false;
   double tessellation_px = 0;  // 0: none
   int warp_level = 0;          // 0: chosen from the error
+  PatternSettings pattern;     // shown instead of the scene
   bool operator==(const RenderSettings&) const = default;
 };
 

@@ -176,6 +176,14 @@ proto::AmbientOcclusion whole_ao() {
   return ao;
 }
 
+proto::TestPattern whole_pattern() {
+  proto::TestPattern pattern;
+  pattern.set_kind(proto::TestPattern::GRID);
+  pattern.set_spacing_px(16);
+  pattern.mutable_color()->set_r(0.5);
+  return pattern;
+}
+
 }  // namespace
 
 void add_scene_field_cases(StabilityCases& cases) {
@@ -193,6 +201,8 @@ void add_scene_field_cases(StabilityCases& cases) {
   render.mutable_background()->set_r(0.5);
   cases.push_back(
       request_case("render", render, [](Stage& stage, const auto& wish) { return stage.set_render(wish); }));
+  cases.push_back(
+      request_case("pattern", whole_pattern(), [](Stage& stage, const auto& wish) { return stage.set_pattern(wish); }));
 }
 
 }  // namespace lfd::bench

@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "controller/daemon/asset_server.h"
 #include "proto/calibration_file.h"
+#include "proto/module_ranges.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::controller {

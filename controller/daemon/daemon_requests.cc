@@ -54,6 +54,8 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
       return change(stage_.set_render(request.render()));
     case proto::Request::kAo:
       return change(stage_.set_ao(request.ao()));
+    case proto::Request::kPattern:
+      return change(stage_.set_pattern(request.pattern()));
     case proto::Request::kSceneFile:
       return start(start_scene(message));
     case proto::Request::kFrames:
@@ -105,6 +107,7 @@ proto::Status Daemon::status(Clock::time_point now) const {
   status.set_late_frames(log_.late_frames());
   if (stage_.has_scene()) status.mutable_scene_warning()->Add(stage_.warnings().begin(), stage_.warnings().end());
   status.set_stale_modules(static_cast<std::uint32_t>(log_.stale_modules().size()));
+  status.set_module_count(static_cast<std::uint32_t>(options_.deployment.display.modules.size()));
   for (const Peer* peer : members_.peers()) {
     proto::PeerStatus& entry = *status.add_peer();
     entry.set_role(peer->role);

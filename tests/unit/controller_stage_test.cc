@@ -143,6 +143,60 @@ TEST(StageSetAo, RefusesAGuardBandThatMakesImagesTooLarge) {
   EXPECT_EQ(stage.store().sequence(), sequence);
 }
 
+// A stage of a display with two modules.
+Stage stage_of_two() {
+  Deployment deployment;
+  deployment.display.screen = {1.6, 0.9};
+  deployment.display.modules.resize(2);
+  deployment.animation_frames_per_second = 4;
+  Stage stage = unwrapped(Stage::of(deployment));
+  EXPECT_TRUE(stage.show(loaded(GltfMaker::triangle())));
+  return stage;
+}
+
+TEST(StageSetPattern, IsAPartOfTheStateUntilItIsTakenAway) {
+  Stage stage = stage_of_two();
+  const std::string before = stage.store().hash();
+  proto::TestPattern pattern;
+  pattern.set_kind(proto::TestPattern::GRID);
+  pattern.add_modules("1");
+  const auto update = stage.set_pattern(pattern);
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->render().pattern().SerializeAsString(), pattern.SerializeAsString());
+  EXPECT_NE(stage.store().hash(), before);
+  proto::AmbientOcclusion ao;
+  ao.set_samples(8);
+  ASSERT_TRUE(stage.set_ao(ao));
+  ASSERT_TRUE(stage.show(loaded(GltfMaker::triangle())));
+  EXPECT_EQ(stage.store().state().render().pattern().kind(), proto::TestPattern::GRID) << "other changes leave it";
+  ASSERT_TRUE(stage.set_ao({}));
+  ASSERT_TRUE(stage.set_pattern({}));
+  EXPECT_FALSE(stage.store().state().render().has_pattern());
+}
+
+TEST(StageSetPattern, GivesTheSameStateBack) {
+  Stage stage = stage_of_two();
+  const std::string before = stage.store().hash();
+  proto::TestPattern pattern;
+  pattern.set_kind(proto::TestPattern::SOLID);
+  ASSERT_TRUE(stage.set_pattern(pattern));
+  ASSERT_TRUE(stage.set_pattern({}));
+  EXPECT_EQ(stage.store().hash(), before);
+}
+
+TEST(StageSetPattern, RefusesModulesThatTheDisplayLacksAndChangesNothing) {
+  Stage stage = stage_of_two();
+  const std::uint64_t sequence = stage.store().sequence();
+  proto::TestPattern pattern;
+  pattern.set_kind(proto::TestPattern::SOLID);
+  pattern.add_modules("1-2");
+  const auto refused = stage.set_pattern(pattern);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message(), "pattern.modules 0: 2; the display has modules 0 to 1");
+  EXPECT_EQ(stage.store().sequence(), sequence);
+  EXPECT_FALSE(stage.store().state().render().has_pattern());
+}
+
 TEST(StageShow, RefusesWhatNoMessageCanHold) {
   Stage stage = stage_with(GltfMaker::triangle());
   const std::string before = stage.store().hash();
