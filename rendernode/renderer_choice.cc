@@ -25,7 +25,7 @@ double milliseconds_of(const std::vector<TimedPass>& passes) {
 Status Renderer::choose_occlusion(const FrameOptions& options) {
   const proto::AmbientOcclusion& asked = state_->render().ao();
   occlusion_choice_.clear();
-  if (!(asked.budget_ms() > 0)) return {};
+  if (!(asked.budget_ms() > 0) || settings_.pattern.is_shown()) return {};
   if (!asked.method().empty()) {
     occlusion_choice_ =
         fmt::format("{}: it is asked for by name, whatever the budget of {:g} ms", asked.method(), asked.budget_ms());

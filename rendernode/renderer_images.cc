@@ -13,6 +13,7 @@ std::vector<ReadbackItem> Renderer::wanted(const Slot& slot) const {
   std::vector<ReadbackItem> items;
   for (const auto layer : slot.plan.active_layers) {
     items.push_back({layer, proto::COLOR, targets_.color(slot.plan), GL_RGBA, GL_UNSIGNED_BYTE, 4});
+    if (slot.plan.pattern) continue;
     const BufferSet& asked = slot.options.buffers;
     if (asked.has(proto::POSITION))
       items.push_back({layer, proto::POSITION, targets_.position(), GL_RGBA, GL_FLOAT, 16});
@@ -55,12 +56,12 @@ void Renderer::append_unchanged(const Slot& slot, std::vector<ModuleImage>& imag
 
 void Renderer::append_empty(const Slot& slot, std::vector<ModuleImage>& images) const {
   for (std::uint32_t layer = 0; layer < modules_.size(); ++layer) {
-    if (std::ranges::binary_search(slot.plan.active_layers, layer) ||
-        std::ranges::binary_search(slot.plan.unchanged_layers, layer))
-      continue;
+    if (std::ranges::binary_search(slot.plan.unchanged_layers, layer)) continue;
+    const bool is_drawn = std::ranges::binary_search(slot.plan.active_layers, layer);
+    if (is_drawn && !slot.plan.pattern) continue;  // of a test pattern there is colour alone
     for (const auto kind :
          {proto::COLOR, proto::POSITION, proto::NORMAL, proto::AO, proto::DEPTH, proto::BENT_NORMAL}) {
-      if (kind != proto::COLOR && !slot.options.buffers.has(kind)) continue;
+      if (kind == proto::COLOR ? is_drawn : !slot.options.buffers.has(kind)) continue;
       images.push_back({modules_[layer], kind, display_.image, true, nullptr});
     }
   }
@@ -90,7 +91,7 @@ void Renderer::fill_report(Slot& slot, proto::NodeReport& report) {
       if (slot.options.time_modules) pass->add_module(modules_[layer]);
     }
   }
-  if (const std::string why = why_nothing_is_seen(); !why.empty())
+  if (const std::string why = why_nothing_is_seen(); !why.empty() && !slot.plan.pattern)
     report.add_warning("nothing of the scene is seen: " + why);
   for (const DrawnModules* drawn : {own_.get(), banded_.get()}) {
     if (drawn == nullptr) continue;

@@ -1,4 +1,4 @@
-// The six passes; those of ambient occlusion: occlusion_passes.cc.
+// The six passes; those of ambient occlusion: occlusion_passes.cc; that of test patterns: pattern_pass.cc.
 #include "rendernode/passes/frame_passes.h"
 
 #include <array>
@@ -114,6 +114,7 @@ Status FramePasses::submit(const FramePlan& plan, const CommandList& commands, c
   if (commands.batches.empty()) return {};
   bind_inputs(plan, commands, inputs);
   glViewport(0, 0, targets.size().width, targets.size().height);
+  if (plan.pattern) return patterns(plan, commands, inputs, targets, timers);
   if (plan.z_prepass) LFD_TRY_STATUS(z_prepass(plan, commands, inputs, targets, timers));
   LFD_TRY_STATUS(gbuffer(plan, commands, inputs, targets, timers));
   glDisable(GL_DEPTH_TEST);

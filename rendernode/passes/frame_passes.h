@@ -1,4 +1,5 @@
-// Submits the six passes of a frame (Doronin et al., WSCG 2017, section 7) for all modules of the node at once.
+// Submits the six passes of a frame (Doronin et al., WSCG 2017, section 7) for all modules of the node at once, or the
+// one that draws test patterns instead.
 #pragma once
 
 #include <map>
@@ -56,6 +57,8 @@ class FramePasses {
               PassTimers& timers);
   Status post(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
               PassTimers& timers);
+  Status patterns(const FramePlan& plan, const CommandList& commands, const FrameInputs& inputs, const Targets& targets,
+                  PassTimers& timers);
   void draw_layers(const CommandList& commands, const char* pass, PassTimers& timers);
   void draw_layers_of(const Batch& batch);
   // The same of pixels with a surface alone, for which the framebuffer knows the geometry's depth; the others have
@@ -64,7 +67,7 @@ class FramePasses {
 
   std::map<std::string, gl::Program> programs_;
   gl::VertexArray surface_array_, empty_array_;
-  gl::Buffer frame_params_, ao_params_, ao_parameters_, ao_samples_, sharing_;
+  gl::Buffer frame_params_, ao_params_, ao_parameters_, ao_samples_, sharing_, patterns_;
 };
 
 // What the shaders read of a frame.

@@ -17,8 +17,12 @@ class Planner {
   explicit Planner(const PlanInputs& inputs) : in_(inputs), everything_(!inputs.settings.plan) {}
 
   FramePlan plan() {
-    choose_draws();
-    choose_passes();
+    if (in_.settings.pattern.is_shown()) {
+      choose_pattern();
+    } else {
+      choose_draws();
+      choose_passes();
+    }
     hash_inputs();
     if (in_.drawn != nullptr && !everything_) drop_unchanged();
     return std::move(plan_);
@@ -32,6 +36,23 @@ class Planner {
     left.set_why(why);
     left.set_count(count);
     plan_.left_out.push_back(std::move(left));
+  }
+
+  // Every layer is drawn, if only black: what sinks make of empty images is the scene's background.
+  void choose_pattern() {
+    constexpr const char* kWhy = "a test pattern is shown";
+    plan_.pattern = true;
+    plan_.z_prepass = plan_.position = plan_.normal = plan_.ao = plan_.blur = plan_.post = false;
+    plan_.inputs.resize(in_.modules->size());
+    for (std::uint32_t layer = 0; layer < in_.modules->size(); ++layer) {
+      plan_.active_layers.push_back(layer);
+      if (in_.settings.pattern.is_shown_by(static_cast<int>((*in_.modules)[layer])))
+        plan_.pattern_layers.push_back(layer);
+    }
+    if (!in_.items->empty()) leave_out("draw", "of every module", kWhy, in_.items->size() * in_.modules->size());
+    for (const char* pass : {"z_prepass", "gbuffer", "ao", "blur", "post"}) leave_out("pass", pass, kWhy);
+    for (const char* target : {"position", "normal"}) leave_out("target", target, kWhy);
+    leave_out("correction", "colour", kWhy);
   }
 
   bool is_lit() const {
@@ -170,9 +191,9 @@ class Planner {
 
   // What a layer's picture shows beside its items is the same for all layers.
   void hash_inputs() {
-    const std::string passes =
-        fmt::format("{}{}{}{}{}{}{}{}{}{} {}", plan_.upsample, plan_.share, plan_.bent, plan_.pyramid_levels,
-                    plan_.position, plan_.normal, plan_.ao, plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
+    const std::string passes = fmt::format("{}{}{}{}{}{}{}{}{}{}{} {}", plan_.pattern, plan_.upsample, plan_.share,
+                                           plan_.bent, plan_.pyramid_levels, plan_.position, plan_.normal, plan_.ao,
+                                           plan_.blur, plan_.post, plan_.color, plan_.guard_band_px);
     for (std::string& items : plan_.inputs)
       items = content_hash(fmt::format("{}|{}|{}|{}", in_.shared, passes, in_.buffers.bits, items));
   }

@@ -4,7 +4,8 @@
 // pixel.
 //
 // It knows no GL: it is told the scene's items, the settings and what is asked for, and returns lists. Told to plan
-// everything, it leaves nothing out; the pictures are the same (a test holds that).
+// everything, it leaves nothing out; the pictures are the same (a test holds that). Where a test pattern is shown there
+// is no picture that anything else could be left out of.
 #pragma once
 
 #include <cstdint>
@@ -81,6 +82,8 @@ struct FramePlan {
   int pyramid_factor = 0;  // how many times smaller each is than the one before
   int guard_band_px = 0;   // geometry is drawn so far beside the images, for ambient occlusion
   bool color = false;      // the post pass corrects colours: a module of the node has a colour calibration
+  bool pattern = false;    // test patterns are drawn in place of all this
+  std::vector<std::uint32_t> pattern_layers;  // that show them; the other layers are black
   std::vector<proto::LeftOut> left_out;
 };
 

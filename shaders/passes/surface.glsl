@@ -3,16 +3,7 @@
 layout(std140, binding = BINDING_MODULES) uniform Modules { ModuleParams modules[MODULES_PER_NODE]; };
 layout(binding = UNIT_PLANES) uniform samplerBuffer planes;  // array of PrimitivePlane: software rasterisers read texels faster
 layout(binding = UNIT_TEXTURE) uniform sampler2DArray base_color_texture;
-#ifdef PIXEL_TABLE
-layout(binding = UNIT_PIXEL_TABLE) uniform sampler2DArray pixel_table;
-#endif
-
-vec2 screen_of_pixel(ModuleParams m, vec2 pixel) {
-#ifdef PIXEL_TABLE
-  if (m.observer.w >= 0.0) return texelFetch(pixel_table, ivec3(pixel, int(m.observer.w)), 0).xy;
-#endif
-  return screen_from_image(m, pixel);
-}
+#include "lib/screen_of_pixel.glsl"
 
 // The t at which R(t) = start + t direction is on the triangle's plane, brought back to where the line leaves the scene's triangle.
 // A rasteriser's corners are off by up to a hundredth of a pixel: it finds a triangle on pixels whose line passes just beside it, and

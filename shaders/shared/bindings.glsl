@@ -1,6 +1,6 @@
 // Binding points, said once for both languages.
 // Small buffers of which all pixels read the same entries are uniform buffers (software rasterisers read those much faster):
-// MODULES, FRAME, AO, AO_METHOD, AO_SAMPLES, COLORS, SHARING; their arrays have a fixed length. The others are storage buffers, of which
+// MODULES, FRAME, AO, AO_METHOD, AO_SAMPLES, COLORS, SHARING, PATTERNS; their arrays have a fixed length. The others are storage buffers, of which
 // OpenGL promises the numbers 0 to 7.
 #define MODULES_PER_NODE 256
 #define AO_MOST_SAMPLES 256
@@ -15,6 +15,7 @@
 #define BINDING_AO 9
 #define BINDING_AO_METHOD 10
 #define BINDING_SHARING 11
+#define BINDING_PATTERNS 12
 #define UNIT_TEXTURE 0
 #define UNIT_PIXEL_TABLE 1
 #define UNIT_ALBEDO 2

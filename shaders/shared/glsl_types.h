@@ -18,6 +18,7 @@ using uint = std::uint32_t;
 #include "shaders/shared/light_params.glsl"
 #include "shaders/shared/material_params.glsl"
 #include "shaders/shared/module_params.glsl"
+#include "shaders/shared/pattern_params.glsl"
 #include "shaders/shared/primitive_plane.glsl"
 #include "shaders/shared/sharing_params.glsl"
 

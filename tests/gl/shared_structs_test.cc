@@ -70,6 +70,10 @@ std::vector<Struct> all_structs() {
         LFD_AT(ModuleParams, screen_from_image_2), LFD_AT(ModuleParams, pinhole_0), LFD_AT(ModuleParams, pinhole_1),
         LFD_AT(ModuleParams, pinhole_2), LFD_AT(ModuleParams, focal_principal), LFD_AT(ModuleParams, distortion),
         LFD_AT(ModuleParams, tangential)}},
+      {"pattern_params",
+       "PatternParams",
+       sizeof(shared::PatternParams),
+       {LFD_AT(PatternParams, what), LFD_AT(PatternParams, color)}},
       {"primitive_plane",
        "PrimitivePlane",
        sizeof(shared::PrimitivePlane),
@@ -148,8 +152,9 @@ Layout uniform_layout_of(const Struct& one) {
 
 // Those that shaders read from uniform blocks.
 bool is_uniform(const Struct& one) {
-  return std::set<std::string>{"AoParams", "ColorParams", "FrameParams", "ModuleParams", "SharingParams"}.contains(
-      one.name);
+  return std::set<std::string>{"AoParams",     "ColorParams",   "FrameParams",
+                               "ModuleParams", "PatternParams", "SharingParams"}
+      .contains(one.name);
 }
 
 TEST(SharedStructs, AreLaidOutAlikeInBothLanguages) {
@@ -189,7 +194,7 @@ TEST(SharedStructs, BindingsAreGivenOutOnce) {
       EXPECT_TRUE(given.insert((*found)[1].str() + " " + (*found)[2].str()).second) << found->str();
     }
   }
-  EXPECT_EQ(count, 20U);
+  EXPECT_EQ(count, 21U);
 }
 
 }  // namespace
