@@ -9,10 +9,10 @@
 
 #include "base/log.h"
 #include "calibration/spaces/roi.h"
-#include "cli/ao_names.h"
-#include "cli/control_client.h"
+#include "cli/ctl_requests.h"
 #include "cli/lfd_commands.h"
-#include "cli/runtime_file.h"
+#include "cli/lfd_ctl_pattern.h"
+#include "cli/setting_names.h"
 #include "cli/status_table.h"
 #include "proto/endpoint.h"
 #include "proto/settings.h"
@@ -21,7 +21,6 @@
 namespace lfd {
 namespace {
 
-constexpr auto kAnswerPatience = std::chrono::seconds(5);
 constexpr auto kLoadPatience = std::chrono::minutes(10);  // of a scene
 
 // The command line of `lfd ctl`; those of its subcommands fill in what they need.
@@ -55,27 +54,8 @@ CLI::Validator endpoint_text() {
   return CLI::Validator(wrong, "tcp://HOST:PORT");
 }
 
-Result<ControlClient> connect(const Arguments& arguments) {
-  if (!arguments.controller.empty()) return ControlClient::connect(arguments.controller);
-  LFD_TRY(const std::string endpoint, only_running_endpoint());
-  return ControlClient::connect(endpoint);
-}
-
-Result<proto::Reply> ask(const Arguments& arguments, const proto::Request& request,
-                         Clock::duration patience = kAnswerPatience) {
-  LFD_TRY(ControlClient client, connect(arguments));
-  return client.ask(request, patience);
-}
-
-Result<proto::Status> ask_status(const Arguments& arguments) {
-  proto::Request request;
-  request.mutable_status();
-  LFD_TRY(const proto::Reply reply, ask(arguments, request));
-  return reply.status();
-}
-
 Status print_status(const Arguments& arguments) {
-  LFD_TRY(const proto::Status status, ask_status(arguments));
+  LFD_TRY(const proto::Status status, ask_status(arguments.controller));
   std::cout << status_table(status);
   return {};
 }
@@ -84,14 +64,14 @@ Status change_roi(const Arguments& arguments) {
   const bool nothing_given =
       arguments.roi.empty() && arguments.physical_roi.empty() && arguments.orientation.empty() && !arguments.whole;
   if (nothing_given) {
-    LFD_TRY(const proto::Status status, ask_status(arguments));
+    LFD_TRY(const proto::Status status, ask_status(arguments.controller));
     std::cout << roi_text(status.roi());
     return {};
   }
   proto::Request request;
   proto::RegionOfInterest& roi = *request.mutable_roi();
   if (!arguments.whole) {
-    LFD_TRY(const proto::Status status, ask_status(arguments));
+    LFD_TRY(const proto::Status status, ask_status(arguments.controller));
     *roi.mutable_world_centre() = status.roi().world_centre();
     *roi.mutable_world_size() = status.roi().world_size();
     *roi.mutable_world_orientation() = status.roi().world_orientation();
@@ -106,7 +86,7 @@ Status change_roi(const Arguments& arguments) {
   if (!arguments.physical_roi.empty()) {
     set_box(*roi.mutable_physical_centre(), *roi.mutable_physical_size(), arguments.physical_roi);
   }
-  LFD_TRY(const proto::Reply reply, ask(arguments, request));
+  LFD_TRY(const proto::Reply reply, ask_controller(arguments.controller, request));
   return {};
 }
 
@@ -152,7 +132,7 @@ void merge_ao(const Arguments& arguments, proto::AmbientOcclusion& ao) {
 }
 
 Status change_ao(const Arguments& arguments) {
-  LFD_TRY(const proto::Status status, ask_status(arguments));
+  LFD_TRY(const proto::Status status, ask_status(arguments.controller));
   proto::Request request;
   *request.mutable_ao() = status.render().ao();
   merge_ao(arguments, *request.mutable_ao());
@@ -160,7 +140,7 @@ Status change_ao(const Arguments& arguments) {
     std::cout << ao_text(status.render().ao());
     return {};
   }
-  LFD_TRY(const proto::Reply reply, ask(arguments, request));
+  LFD_TRY(const proto::Reply reply, ask_controller(arguments.controller, request));
   return {};
 }
 
@@ -168,14 +148,14 @@ Status change_scene(const Arguments& arguments) {
   std::error_code failure;
   proto::Request request;
   request.set_scene_file(std::filesystem::absolute(arguments.scene, failure).string());
-  LFD_TRY(const proto::Reply reply, ask(arguments, request, kLoadPatience));
-  LFD_TRY(const proto::Status status, ask_status(arguments));
+  LFD_TRY(const proto::Reply reply, ask_controller(arguments.controller, request, kLoadPatience));
+  LFD_TRY(const proto::Status status, ask_status(arguments.controller));
   for (const std::string& warning : status.scene_warning()) std::cerr << "warning: " << warning << "\n";
   return {};
 }
 
 Status quit(const Arguments& arguments) {
-  LFD_TRY(ControlClient client, connect(arguments));
+  LFD_TRY(ControlClient client, connect_controller(arguments.controller));
   return client.quit(kAnswerPatience);
 }
 
@@ -287,6 +267,7 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   add("scene", "Show another scene; if it cannot be loaded the old one stays", change_scene)
       ->add_option("FILE", a.scene, "glTF file, as the controller's machine sees it")
       ->required();
+  add_pattern_command(*ctl, {arguments, &arguments->controller}, exit_code);
   add("quit", "End the cluster", quit);
 }
 

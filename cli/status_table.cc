@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/log.h"
-#include "cli/ao_names.h"
-#include "proto/deployment_file.h"
+#include "cli/setting_names.h"
+#include "proto/module_ranges.h"
 #include "proto/settings.h"
 
 namespace lfd {
@@ -61,6 +61,21 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
       name_of(kTargetNames, message.target()));
 }
 
+std::string pattern_text(const proto::TestPattern& message) {
+  const auto pattern = read_pattern(message);
+  if (!pattern) return pattern.error().message();
+  if (!pattern->is_shown()) return "off";
+  std::string text = name_of(kPatternNames, message.kind());
+  if (pattern->kind == PatternKind::kGrid || pattern->kind == PatternKind::kChecker) {
+    text += !pattern->on_screen      ? fmt::format(", {} px", pattern->spacing_px)
+            : pattern->spacing_m > 0 ? fmt::format(", {:g} m on the screen", pattern->spacing_m)
+                                     : ", a tenth of the screen's height";
+  }
+  text += fmt::format(", colour {:g},{:g},{:g}", pattern->color.r, pattern->color.g, pattern->color.b);
+  if (!pattern->modules.empty()) text += fmt::format(", modules {}", fmt::join(message.modules(), ","));
+  return text;
+}
+
 std::string status_table(const proto::Status& status) {
   std::string table;
   const auto line = [&](const char* name, const std::string& value) {
@@ -74,6 +89,7 @@ std::string status_table(const proto::Status& status) {
   line("stale modules", std::to_string(status.stale_modules()));
   line("state", fmt::format("{} (update {})", status.state_hash(), status.sequence()));
   line("occlusion", status.render().ao().has_enabled() && !status.render().ao().enabled() ? "off" : "on");
+  line("pattern", pattern_text(status.render().pattern()));
   table += roi_text(status.roi());
   for (const std::string& warning : status.scene_warning()) table += fmt::format("warning: {}\n", warning);
   table += fmt::format("\n{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", "peer", "role", "state", "process", "state hash",

@@ -15,4 +15,7 @@ std::string roi_text(const proto::RegionOfInterest& roi);
 // What a node does with these settings, a line each.
 std::string ao_text(const proto::AmbientOcclusion& ao);
 
+// What modules show instead of the scene, on one line without its end: "off", "solid, colour 1,0,0, modules 17,20-25".
+std::string pattern_text(const proto::TestPattern& pattern);
+
 }  // namespace lfd

@@ -2,19 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <optional>
-#include <thread>
-
 #include "base/log.h"
-#include "proto/frame_files.h"
-#include "proto/pictures/png.h"
 #include "tests/system/running_cluster.h"
 
 namespace lfd::harness {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
@@ -24,23 +17,6 @@ using testing::MatchesRegex;
 using testing::StartsWith;
 
 const std::string kQuick = "pacing { heartbeat_ms: 100 }";
-
-// What `lfd ctl` prints.
-std::vector<std::string> ctl(const Running& running, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {"ctl", "--controller", running.endpoint});
-  const auto lfd = start_program("lfd", arguments);
-  const auto exit = lfd->wait(kClusterPatience);
-  EXPECT_TRUE(exit && exit->succeeded()) << testing::PrintToString(arguments) << testing::PrintToString(lfd->lines());
-  return lfd->lines();
-}
-
-// The status, once all nodes hold the controller's state.
-proto::Status settled_status(const Running& running) {
-  EXPECT_TRUE(becomes(running.endpoint, all_nodes_follow));
-  const Result<proto::Status> status = status_at(running.endpoint);
-  EXPECT_TRUE(status);
-  return status ? *status : proto::Status();
-}
 
 TEST(LfdCtl, StatusShowsWhatIsShownAndWhoTakesPart) {
   const Workbench bench;
@@ -123,16 +99,6 @@ TEST(LfdCtl, ChangesOnlyWhatIsGiven) {
   EXPECT_TRUE(ao.blur().has_enabled() && !ao.blur().enabled());
 }
 
-// The picture of module 1 that its node writes for a frame, as soon as it is there.
-std::optional<Picture8> written_picture(const Workbench& bench, std::uint64_t frame) {
-  const auto path = image_path(bench.folder() / "frames", frame, 1, proto::COLOR);
-  const auto deadline = Clock::now() + kClusterPatience;
-  while (!std::filesystem::exists(path) && Clock::now() < deadline) std::this_thread::sleep_for(50ms);
-  const Result<Picture8> picture = read_png(path);
-  EXPECT_TRUE(picture) << (picture ? "" : picture.error().message());
-  return picture ? std::optional(*picture) : std::nullopt;
-}
-
 TEST(LfdCtl, SceneChangesThePicturesOfLaterFrames) {
   const Workbench bench;
   const std::string room = bench.folder() / "room.glb";
@@ -151,8 +117,9 @@ TEST(LfdCtl, SceneChangesThePicturesOfLaterFrames) {
   EXPECT_THAT(ctl(running, {"status"}), Contains(MatchesRegex("scene +room")));
   // Two frames may be open at a time: the third one to come begins with the new scene.
   const std::uint64_t later = after.frame() + 3;
-  const auto plane = written_picture(bench, before.frame()), first = written_picture(bench, later),
-             second = written_picture(bench, later + 1);
+  const auto frames = bench.folder() / "frames";
+  const auto plane = written_picture(frames, before.frame(), 1), first = written_picture(frames, later, 1),
+             second = written_picture(frames, later + 1, 1);
   ASSERT_TRUE(plane && first && second);
   EXPECT_FALSE(*plane == *first);
   EXPECT_TRUE(*first == *second) << "nothing else changes the picture";

@@ -7,6 +7,8 @@
 
 #include "base/log.h"
 #include "cli/control_client.h"
+#include "proto/frame_files.h"
+#include "proto/pictures/png.h"
 
 namespace lfd::harness {
 namespace {
@@ -45,6 +47,31 @@ testing::AssertionResult becomes(const std::string& endpoint,
     }
     std::this_thread::sleep_for(kPause);
   }
+}
+
+std::vector<std::string> ctl(const Running& running, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"ctl", "--controller", running.endpoint});
+  const auto lfd = start_program("lfd", arguments);
+  const auto exit = lfd->wait(kClusterPatience);
+  EXPECT_TRUE(exit && exit->succeeded()) << testing::PrintToString(arguments) << testing::PrintToString(lfd->lines());
+  return lfd->lines();
+}
+
+proto::Status settled_status(const Running& running) {
+  EXPECT_TRUE(becomes(running.endpoint, all_nodes_follow));
+  const Result<proto::Status> status = status_at(running.endpoint);
+  EXPECT_TRUE(status);
+  return status ? *status : proto::Status();
+}
+
+std::optional<Picture8> written_picture(const std::filesystem::path& folder, std::uint64_t frame,
+                                        std::uint32_t module) {
+  const auto path = image_path(folder, frame, module, proto::COLOR);
+  const auto deadline = Clock::now() + kClusterPatience;
+  while (!std::filesystem::exists(path) && Clock::now() < deadline) std::this_thread::sleep_for(kPause);
+  const Result<Picture8> picture = read_png(path);
+  EXPECT_TRUE(picture) << (picture ? "" : picture.error().message());
+  return picture ? std::optional(*picture) : std::nullopt;
 }
 
 testing::AssertionResult draws(const std::string& endpoint, std::uint64_t frames) {

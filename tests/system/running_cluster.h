@@ -9,10 +9,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "proto/pictures/picture.h"
 #include "proto/wire.pb.h"
 #include "tests/harness/workbench.h"
 
@@ -35,6 +37,15 @@ Result<proto::Status> status_at(const std::string& endpoint);
 // Asks for the status until `wanted` is true of it. A failure says what the last one was.
 testing::AssertionResult becomes(const std::string& endpoint,
                                  const std::function<bool(const proto::Status& status)>& wanted);
+
+// What `lfd ctl` prints; a failure of the test where it fails.
+std::vector<std::string> ctl(const Running& running, std::vector<std::string> arguments);
+
+// The status, once all nodes hold the controller's state.
+proto::Status settled_status(const Running& running);
+
+// The picture of a module that its node writes for a frame into this folder, as soon as it is there.
+std::optional<Picture8> written_picture(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module);
 
 // Waits until all nodes take part and `frames` more frames have been swapped.
 testing::AssertionResult draws(const std::string& endpoint, std::uint64_t frames);

@@ -8,6 +8,7 @@
 #include "cli/report.h"
 #include "cli/status_table.h"
 #include "proto/frame_files.h"
+#include "proto/module_ranges.h"
 
 namespace lfd {
 namespace {
@@ -21,6 +22,23 @@ TEST(ModuleRanges, AreWrittenShort) {
   EXPECT_EQ(module_ranges({}), "");
   EXPECT_EQ(module_ranges(std::vector{7}), "7");
   EXPECT_EQ(module_ranges(std::vector{0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
+}
+
+TEST(PatternText, SaysWhatModulesShow) {
+  proto::TestPattern pattern;
+  EXPECT_EQ(pattern_text(pattern), "off");
+  pattern.set_kind(proto::TestPattern::NUMBER);
+  EXPECT_EQ(pattern_text(pattern), "number, colour 1,1,1");
+  pattern.set_kind(proto::TestPattern::CHECKER);
+  EXPECT_EQ(pattern_text(pattern), "checker, 32 px, colour 1,1,1");
+  pattern.set_kind(proto::TestPattern::GRID);
+  pattern.set_space(proto::TestPattern::SCREEN);
+  EXPECT_EQ(pattern_text(pattern), "grid, a tenth of the screen's height, colour 1,1,1");
+  pattern.set_spacing_m(0.05);
+  pattern.mutable_color()->set_g(0.5);
+  pattern.add_modules("17");
+  pattern.add_modules("20-25");
+  EXPECT_EQ(pattern_text(pattern), "grid, 0.05 m on the screen, colour 0,0.5,0, modules 17,20-25");
 }
 
 TEST(Buffers, AreBitsInTheOrderOfTheirKinds) {

@@ -1,4 +1,4 @@
-// What people call the values of ambient occlusion's settings.
+// What people call the values of settings.
 #pragma once
 
 #include <map>
@@ -20,6 +20,15 @@ inline const std::map<std::string, proto::AmbientOcclusion::Target> kTargetNames
 
 inline const std::map<std::string, proto::AmbientOcclusion::Blur::Kind> kBlurNames{
     {"gaussian", proto::AmbientOcclusion::Blur::GAUSSIAN}, {"geometry", proto::AmbientOcclusion::Blur::GEOMETRY}};
+
+inline const std::map<std::string, proto::TestPattern::Kind> kPatternNames{{"off", proto::TestPattern::NONE},
+                                                                           {"number", proto::TestPattern::NUMBER},
+                                                                           {"grid", proto::TestPattern::GRID},
+                                                                           {"checker", proto::TestPattern::CHECKER},
+                                                                           {"solid", proto::TestPattern::SOLID}};
+
+inline const std::map<std::string, proto::TestPattern::Space> kSpaceNames{{"image", proto::TestPattern::IMAGE},
+                                                                          {"screen", proto::TestPattern::SCREEN}};
 
 template <class Enumeration>
 std::vector<std::string> names_of(const std::map<std::string, Enumeration>& values) {
