@@ -76,6 +76,9 @@ class Bench {
                           const std::optional<std::filesystem::path>& file) -> Status {
       log::info("loading {}", (file ? *file : deployment).string());
       LFD_TRY(auto scene, ShownScene::load(deployment, {options_.display, file}, options_.size));
+      for (const std::size_t count = scene->display().modules.size(); const std::uint32_t module : options_.modules) {
+        if (module >= count) return Error(fmt::format("module {}: the display has {}", module, count));
+      }
       scenes.push_back(std::move(scene));
       return {};
     };
@@ -105,12 +108,6 @@ class Bench {
 
   Status load_places() {
     LFD_TRY(const auto scenes, load_scenes());
-    for (const auto& scene : scenes) {
-      const std::size_t count = scene->display().modules.size();
-      for (const std::uint32_t module : options_.modules) {
-        if (module >= count) return Error(fmt::format("module {}: the display has {}", module, count));
-      }
-    }
     for (const auto& scene : scenes) {
       for (const auto& [module, kind] : modules_of(static_cast<std::uint32_t>(scene->display().modules.size())))
         LFD_TRY_STATUS(add_place(scene, module, kind));
