@@ -124,7 +124,7 @@ Result<Cluster> Cluster::start(const ClusterOptions& options, StopSignals& signa
     const std::size_t before = cluster.modules_.size();
     std::ranges::copy_if(node.modules, std::back_inserter(cluster.modules_),
                          [&](int module) { return options.modules.empty() || wanted.contains(module); });
-    if (cluster.modules_.size() == before) continue;  // it has nothing to draw
+    if (cluster.modules_.size() == before && !node.spare) continue;  // it has nothing to draw
     std::vector<std::string> command{program("lfd-rendernode"), options.deployment, "--name", node.name, "--controller",
                                      cluster.endpoint_};
     add_option(command, "--display", options.display);

@@ -22,6 +22,7 @@ struct NodeShare {
   std::string name;          // unique; letters, digits, '.', '-', '_'
   std::vector<int> modules;  // ascending; no module has two nodes; empty where nodes outnumber them
   int gpu = -1;              // of `lfd-rendernode --list-gpus`; -1: the first that works
+  bool spare = false;        // takes over the modules of a node that is out; has none of its own
 };
 
 struct Pacing {

@@ -85,6 +85,7 @@ class Daemon {
   void take_request(const wire::Message& message, Clock::time_point now);
   Result<bool> start_frames(const wire::Message& message);
   Result<bool> start_scene(const wire::Message& message);
+  proto::Follow follow() const;
   proto::Status status(Clock::time_point now) const;
   void reply(const std::string& client, std::uint64_t id, const Status& done);
   // An error in place of what no message can hold.

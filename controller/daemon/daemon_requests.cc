@@ -1,6 +1,7 @@
 // Requests of control clients and their replies.
 #include "base/log.h"
 #include "controller/daemon/daemon.h"
+#include "proto/calibration_file.h"
 
 namespace lfd::controller {
 namespace {
@@ -48,6 +49,13 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
       *answer.mutable_status() = status(now);
       return reply(message.peer, std::move(answer));
     }
+    case proto::Request::kFollow: {
+      if (!stage_.has_scene()) return reply(message.peer, request.id(), Error("no scene is there yet"));
+      proto::Reply answer;
+      answer.set_id(request.id());
+      *answer.mutable_follow() = follow();
+      return reply(message.peer, std::move(answer));
+    }
     case proto::Request::kRoi:
       return change(stage_.set_roi(request.roi()));
     case proto::Request::kRender:
@@ -91,6 +99,16 @@ Result<bool> Daemon::start_frames(const wire::Message& message) {
   pacing_.ask_for(frames.count());
   if (const auto update = stage_.set_buffers(frames.buffers())) publish(*update);
   return true;
+}
+
+proto::Follow Daemon::follow() const {
+  proto::Follow follow;
+  follow.set_state_endpoint(links_.state.endpoint());
+  follow.set_bulk_endpoint(links_.bulk.endpoint());
+  *follow.mutable_display() = write_calibration(options_.deployment.display);
+  *follow.mutable_snapshot()->mutable_state() = stage_.store().state();
+  follow.mutable_snapshot()->set_images_endpoint(images_endpoint());
+  return follow;
 }
 
 proto::Status Daemon::status(Clock::time_point now) const {

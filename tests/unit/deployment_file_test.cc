@@ -92,6 +92,37 @@ TEST_F(DeploymentFile, ANodeWithoutAListBesideOneWithIsRefused) {
   EXPECT_THAT(deployment.error().message(), testing::HasSubstr("node 1: modules: \"spare\" has none"));
 }
 
+TEST_F(DeploymentFile, SparesHaveNoModulesOfTheirOwn) {
+  const std::string start = "display: \"desk.textproto\" scene { made { name: \"x\" } } ";
+  const auto shared = load(start + "node { name: \"a\" } node { name: \"s\" spare: true } node { name: \"b\" }");
+  ASSERT_TRUE(shared) << shared.error().message();
+  EXPECT_THAT(shared->nodes[0].modules, ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(shared->nodes[1].modules, testing::IsEmpty());
+  EXPECT_TRUE(shared->nodes[1].spare);
+  EXPECT_THAT(shared->nodes[2].modules, ElementsAre(4, 5, 6, 7));
+  const auto listed = load(start + "node { name: \"a\" modules: \"0-7\" } node { name: \"s\" spare: true }");
+  ASSERT_TRUE(listed) << listed.error().message();
+  EXPECT_THAT(listed->nodes[1].modules, testing::IsEmpty());
+  const auto both = load(start + "node { name: \"a\" } node { name: \"s\" spare: true modules: \"3\" }");
+  ASSERT_FALSE(both);
+  EXPECT_THAT(both.error().message(), testing::HasSubstr("node 1: modules: \"s\" is a spare"));
+  const auto idle = load(start + "node { name: \"s\" spare: true }");
+  ASSERT_FALSE(idle);
+  EXPECT_THAT(idle.error().message(), testing::HasSubstr("at least one has to draw"));
+}
+
+TEST_F(DeploymentFile, StreamsAreHeldToTheirRanges) {
+  const std::string start = "display: \"desk.textproto\" scene { made { name: \"x\" } } node { name: \"a\" } ";
+  EXPECT_TRUE(load(start + "stream { codec: JPEG_IMAGES quality: 100 waiting_mib: 64 }"));
+  EXPECT_TRUE(load(start + "stream { codec: ZSTD_IMAGES level: 19 }"));
+  for (const char* const wrong : {"quality: 0", "quality: 101", "level: 0", "level: 20", "waiting_mib: 65537"}) {
+    const auto deployment = load(start + "stream { " + wrong + " }");
+    ASSERT_FALSE(deployment) << wrong;
+    const std::string field(wrong, std::string_view(wrong).find(':'));
+    EXPECT_THAT(deployment.error().message(), testing::HasSubstr("stream: " + field));
+  }
+}
+
 TEST_F(DeploymentFile, AnotherDisplayIsSharedEqually) {
   ASSERT_TRUE(save_calibration(folder_ / "four.textproto", *make_display("desk", 4)));
   const auto deployment = load(kText, {folder_ / "four.textproto", "other.glb"});

@@ -1,0 +1,67 @@
+// Addresses and streams of a deployment file.
+#include <map>
+#include <tuple>
+
+#include "base/log.h"
+#include "proto/deployment_checks.h"
+#include "proto/endpoint.h"
+
+namespace lfd::deployment {
+namespace {
+
+bool has_wildcard(std::string_view endpoint) {
+  return endpoint.starts_with("tcp://*:") || endpoint.starts_with("tcp://0.0.0.0:") ||
+         endpoint.starts_with("tcp://[::]:");
+}
+
+// Reached from this machine alone.
+bool is_local(std::string_view endpoint) {
+  return !endpoint.starts_with("tcp://") || endpoint.starts_with("tcp://127.") ||
+         endpoint.starts_with("tcp://localhost:") || endpoint.starts_with("tcp://[::1]:");
+}
+
+}  // namespace
+
+Check read_addresses(const proto::Deployment& deployment, Addresses& addresses) {
+  const proto::Deployment::Addresses& m = deployment.addresses();
+  std::map<std::string, std::string> seen;
+  for (const auto& [field, text, address] :
+       {std::tuple{"control", &m.control(), &addresses.control}, std::tuple{"state", &m.state(), &addresses.state},
+        std::tuple{"bulk", &m.bulk(), &addresses.bulk}, std::tuple{"images", &m.images(), &addresses.images}}) {
+    if (text->empty()) continue;
+    const std::string road = fmt::format("addresses: {}", field);
+    if (auto status = validate_endpoint(*text); !status) return Fault{road, status.error().within(road)};
+    if (has_wildcard(*text)) {
+      return Fault{road,
+                   Error(fmt::format("{}: \"{}\": peers are told this address: name one interface", road, *text))};
+    }
+    if (is_fixed_endpoint(*text) && !seen.emplace(*text, field).second) {
+      return Fault{road, Error(fmt::format("{}: \"{}\" is the address of {} already", road, *text, seen[*text]))};
+    }
+    *address = *text;
+  }
+  if (is_local(addresses.control)) return std::nullopt;
+  for (const auto& [field, address] :
+       {std::pair{"state", &addresses.state}, {"bulk", &addresses.bulk}, {"images", &addresses.images}}) {
+    if (!is_local(*address)) continue;
+    return Fault{"addresses",
+                 Error(fmt::format("addresses: {}: \"{}\" cannot be reached from other machines, as control can", field,
+                                   *address))};
+  }
+  return std::nullopt;
+}
+
+Check read_stream(const proto::Stream& m) {
+  if (m.codec() < proto::RAW_IMAGES || m.codec() > proto::JPEG_IMAGES)
+    return Fault{"stream: codec", Error("stream: codec: must be RAW_IMAGES, ZSTD_IMAGES or JPEG_IMAGES")};
+  if (m.has_level()) {
+    if (auto fault = check_range("stream: level", m.level(), 1, 19)) return fault;
+  }
+  if (m.has_quality()) {
+    if (auto fault = check_range("stream: quality", m.quality(), 1, 100)) return fault;
+  }
+  constexpr double kMost_mib = 65536;
+  return check_range("stream: waiting_mib", m.waiting_mib(), 0, kMost_mib);
+}
+
+}  // namespace lfd::deployment
