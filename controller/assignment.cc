@@ -25,14 +25,15 @@ Result<Assignment> assign_modules(const Deployment& deployment, const std::vecto
   return assignment;
 }
 
-std::vector<std::uint32_t> modules_without(const Assignment& assignment, const std::vector<std::string>& present) {
-  std::vector<std::uint32_t> without;
+std::vector<std::uint32_t> modules_beside(const Assignment& assignment, std::vector<std::uint32_t> fresh) {
+  std::ranges::sort(fresh);
+  std::vector<std::uint32_t> others;
   for (const auto& [node, modules] : assignment) {
-    if (std::ranges::find(present, node) == present.end())
-      without.insert(without.end(), modules.begin(), modules.end());
+    std::ranges::copy_if(modules, std::back_inserter(others),
+                         [&](std::uint32_t module) { return !std::ranges::binary_search(fresh, module); });
   }
-  std::ranges::sort(without);
-  return without;
+  std::ranges::sort(others);
+  return others;
 }
 
 }  // namespace lfd::controller

@@ -18,7 +18,7 @@ using Assignment = std::map<std::string, std::vector<std::uint32_t>>;
 // is wrong.
 Result<Assignment> assign_modules(const Deployment& deployment, const std::vector<std::string>& only);
 
-// All modules of nodes that are not in `present`, ascending: nobody draws them.
-std::vector<std::uint32_t> modules_without(const Assignment& assignment, const std::vector<std::string>& present);
+// All modules of nodes but these, ascending.
+std::vector<std::uint32_t> modules_beside(const Assignment& assignment, std::vector<std::uint32_t> fresh);
 
 }  // namespace lfd::controller

@@ -25,8 +25,12 @@ Membership::Membership(Rules rules) : rules_(std::move(rules)) {
   for (const std::string& name : rules_.nodes) peers_[name].name = name;
 }
 
-Result<std::string> Membership::join(const proto::Join& join, const std::string& address) {
-  LFD_TRY_STATUS(check(join, address));
+Result<std::optional<std::string>> Membership::join(const proto::Join& join, const std::string& address,
+                                                    Clock::time_point now) {
+  LFD_TRY_STATUS(check(join));
+  LFD_TRY(const bool may_come, may_take_name(join, address, now));
+  if (!may_come) return std::optional<std::string>();
+  if (const Peer* before = living_of(join)) peers_[before->name].phase = Phase::kOut;
   Peer& peer = peers_[join.name()];
   peer = Peer{.role = join.role(),
               .name = join.name(),
@@ -35,11 +39,13 @@ Result<std::string> Membership::join(const proto::Join& join, const std::string&
               .state_hash = {},
               .images_endpoint = join.images_endpoint(),
               .process = join.process(),
-              .last_heard = std::nullopt};
-  return peer.name;
+              .last_heard = std::nullopt,
+              .last_word = now,
+              .rival = std::nullopt};
+  return std::optional(peer.name);
 }
 
-Status Membership::check(const proto::Join& join, const std::string& address) const {
+Status Membership::check(const proto::Join& join) const {
   if (join.version() != rules_.version) {
     return Error(fmt::format("version {} does not fit the controller's {}", join.version(), rules_.version));
   }
@@ -55,13 +61,36 @@ Status Membership::check(const proto::Join& join, const std::string& address) co
   if (join.role() == proto::DISPLAY && is_node) return Error(fmt::format("\"{}\" is the name of a node", join.name()));
   if (join.role() != proto::NODE && join.role() != proto::DISPLAY) return Error("only nodes and displays join");
   if (join.name().empty()) return Error("a peer without a name");
+  return {};
+}
 
-  const Peer* living = join.role() == proto::DISPLAY ? display() : find(join.name());
-  if (living == nullptr || !living->lives()) return {};
-  if (!living->last_heard && living->name == join.name()) return {};  // it may be gone: nothing is heard of it yet
+// The living peer whose place it would take: one display at a time, one node of each name.
+Peer* Membership::living_of(const proto::Join& join) {
+  for (auto& [name, peer] : peers_) {
+    const bool same_place = join.role() == proto::DISPLAY ? peer.role == proto::DISPLAY : name == join.name();
+    if (same_place && peer.lives()) return &peer;
+  }
+  return nullptr;
+}
+
+Result<bool> Membership::may_take_name(const proto::Join& join, const std::string& address, Clock::time_point now) {
+  Peer* living = living_of(join);
+  if (living == nullptr) return true;
+  if (!living->last_heard && living->name == join.name()) return true;  // it may be gone: nothing is heard of it yet
   const bool same = living->address == address || (join.process() != 0 && living->process == join.process());
-  if (same && living->name == join.name()) return {};
-  return Error(fmt::format("\"{}\" has joined already, as process {}", living->name, living->process));
+  if (same && living->name == join.name()) return true;
+  if (!living->rival || living->rival->process != join.process()) living->rival = Peer::Rival{join.process(), now};
+  // What was under way when it died may still be heard a little later.
+  if (living->last_word > living->rival->since + rules_.heartbeat / 2) {
+    living->rival.reset();
+    return Error(fmt::format("\"{}\" has joined already, as process {}", living->name, living->process));
+  }
+  return now - living->rival->since >= kHeartbeatsOfDoubt * rules_.heartbeat;
+}
+
+void Membership::reassigned(const std::string& name) {
+  Peer& peer = peers_.at(name);
+  if (peer.phase == Phase::kReady) peer.phase = Phase::kJoining;
 }
 
 void Membership::welcomed(const std::string& name, Clock::time_point now) { peers_.at(name).last_heard = now; }
@@ -69,6 +98,7 @@ void Membership::welcomed(const std::string& name, Clock::time_point now) { peer
 Membership::Heard Membership::heard(const std::string& address, Clock::time_point now) {
   for (auto& [name, peer] : peers_) {
     if (address.empty() || peer.address != address) continue;
+    peer.last_word = now;
     if (peer.lives()) {
       if (peer.last_heard) peer.last_heard = now;
       return Heard::kMember;

@@ -32,6 +32,15 @@ struct Peer {
   std::string images_endpoint;  // of a display
   std::uint64_t process = 0;
   std::optional<Clock::time_point> last_heard;  // absent until it has been welcomed
+  Clock::time_point last_word;                  // likewise, but from its join on
+
+  // Another process that wants to come under this name, and since when; the name is its own once this peer has been
+  // silent for as long as a peer that lives would not be.
+  struct Rival {
+    std::uint64_t process = 0;
+    Clock::time_point since;
+  };
+  std::optional<Rival> rival;
 
   bool lives() const { return phase == Phase::kJoining || phase == Phase::kReady; }
 };
@@ -42,15 +51,19 @@ class Membership {
     std::string version;           // peers of another are refused
     std::string calibration_hash;  // peers started with another are refused
     std::vector<std::string> nodes;
-    Clock::duration patience;  // a peer silent for longer is out
+    Clock::duration patience;   // a peer silent for longer is out
+    Clock::duration heartbeat;  // how often a peer that lives is heard
   };
 
   explicit Membership(Rules rules);
 
   // The peer's name, or the reason why it is refused. A peer that joins again from where it lives is accepted again; so
   // is the same process from a new address (it reconnected), and whoever comes under the name of one that has not been
-  // welcomed yet.
-  Result<std::string> join(const proto::Join& join, const std::string& address);
+  // welcomed yet. Another process under the name of a living peer is not answered (absent) and asks again: it takes the
+  // place once nothing has been heard of the other for kHeartbeatsOfDoubt, as after a crash and a quick restart, and is
+  // refused once something has.
+  Result<std::optional<std::string>> join(const proto::Join& join, const std::string& address, Clock::time_point now);
+  static constexpr int kHeartbeatsOfDoubt = 2;
 
   // The peer has been sent its Welcome: from now on it has to be heard.
   void welcomed(const std::string& name, Clock::time_point now);
@@ -64,12 +77,16 @@ class Membership {
   // ready by that; a display needs no state.
   void holds(const std::string& address, const std::string& state_hash, bool known);
 
+  // The peer has been given other modules: it is not ready until it says that it can draw them.
+  void reassigned(const std::string& name);
+
   // The peer at `address` goes of its own accord; its name, if it lived.
   std::optional<std::string> leave(const std::string& address);
 
   // Puts out whoever was silent for longer than the patience; their names.
   std::vector<std::string> expire(Clock::time_point now);
 
+  Clock::duration patience() const { return rules_.patience; }
   const Peer* find(const std::string& name) const;
   const Peer* at(const std::string& address) const;
   const Peer* display() const;             // the living one
@@ -77,7 +94,10 @@ class Membership {
   std::vector<std::string> ready_nodes() const;
 
  private:
-  Status check(const proto::Join& join, const std::string& address) const;
+  Status check(const proto::Join& join) const;
+  // Whether it may come now; absent: not decided yet.
+  Result<bool> may_take_name(const proto::Join& join, const std::string& address, Clock::time_point now);
+  Peer* living_of(const proto::Join& join);
 
   Rules rules_;
   std::map<std::string, Peer> peers_;  // by name

@@ -2,7 +2,7 @@
 #include "controller/daemon/daemon.h"
 
 #include <algorithm>
-#include <array>
+#include <random>
 
 #include "base/log.h"
 #include "base/version.h"
@@ -21,9 +21,24 @@ Membership::Rules rules_of(const Deployment& deployment) {
   Membership::Rules rules{.version = kVersion,
                           .calibration_hash = calibration_hash(deployment.display),
                           .nodes = {},
-                          .patience = kHeartbeatsOfPatience * deployment.pacing.heartbeat};
+                          .patience = kHeartbeatsOfPatience * deployment.pacing.heartbeat,
+                          .heartbeat = deployment.pacing.heartbeat};
   for (const NodeShare& node : deployment.nodes) rules.nodes.push_back(node.name);
   return rules;
+}
+
+Shares shares_of(const Deployment& deployment, const Assignment& assignment) {
+  std::vector<std::string> spares;
+  for (const NodeShare& node : deployment.nodes) {
+    if (node.spare) spares.push_back(node.name);
+  }
+  return Shares(assignment, std::move(spares), deployment.message.give_back());
+}
+
+// Not zero, and hardly ever that of another life.
+std::uint64_t new_session() {
+  std::random_device random;
+  return (std::uint64_t{random()} << 32 | random()) | 1;
 }
 
 }  // namespace
@@ -45,7 +60,9 @@ Daemon::Daemon(Options options, Links links, std::unique_ptr<wire::Context> cont
       context_(std::move(context)),
       links_(std::move(links)),
       stage_(std::move(stage)),
+      session_(new_session()),
       assignment_(std::move(assignment)),
+      shares_(shares_of(options_.deployment, assignment_)),
       members_(rules_of(options_.deployment)),
       barrier_(options_.deployment.pacing.deadline),
       pacing_(options_.deployment.pacing.frames_per_second, options_.idle) {}
@@ -123,6 +140,7 @@ Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
     log::info("scene: {} is shown", stage_.store().state().scene().name());
     for (const std::string& warning : stage_.warnings()) log::warn("scene: {}", warning);
     publish(*update);
+    if (!first_shown_) first_shown_ = now;
     for (const Peer* peer : members_.peers()) {
       if (peer->lives() && !peer->last_heard) welcome(*peer, now);
     }
@@ -145,6 +163,7 @@ void Daemon::tick(Clock::time_point now) {
     publish(pulse);
     next_pulse_ = now + options_.deployment.pacing.heartbeat;
   }
+  settle_shares(now);
   advance(now);
 }
 
@@ -156,17 +175,19 @@ Clock::time_point Daemon::wake_at() const {
   return wake;
 }
 
-void Daemon::publish(const proto::Envelope& envelope) {
+void Daemon::publish(proto::Envelope envelope) {
+  envelope.set_session(session_);
   if (const Status sent = links_.state.send(envelope); !sent) log::error("state: {}", sent.error().message());
 }
 
 void Daemon::publish(const proto::Update& update) {
   proto::Envelope envelope;
   *envelope.mutable_update() = update;
-  publish(envelope);
+  publish(std::move(envelope));
 }
 
-void Daemon::send(const std::string& address, const proto::Envelope& envelope) {
+void Daemon::send(const std::string& address, proto::Envelope envelope) {
+  envelope.set_session(session_);
   if (const Status sent = links_.control.send_to(address, envelope); !sent) {
     log::warn("control: {}", sent.error().message());
   }

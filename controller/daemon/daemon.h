@@ -15,6 +15,7 @@
 #include "controller/frame_log.h"
 #include "controller/membership.h"
 #include "controller/pacing.h"
+#include "controller/shares.h"
 #include "controller/stage.h"
 
 namespace lfd::controller {
@@ -56,9 +57,9 @@ class Daemon {
   Status take_scene(SceneArrival arrival, Clock::time_point now);
   void tick(Clock::time_point now);
   Clock::time_point wake_at() const;
-  void publish(const proto::Envelope& envelope);
+  void publish(proto::Envelope envelope);
   void publish(const proto::Update& update);
-  void send(const std::string& address, const proto::Envelope& envelope);
+  void send(const std::string& address, proto::Envelope envelope);
 
   // daemon_peers.cc: who takes part
   void take_join(const wire::Message& message, Clock::time_point now);
@@ -69,8 +70,14 @@ class Daemon {
   void send_snapshot(const std::string& address);
   void publish_images_endpoint();
   std::string images_endpoint() const;
-  std::vector<std::string> drawing_nodes() const;  // ready, and with modules
   bool has_deadline() const { return options_.deployment.pacing.deadline.count() > 0; }
+
+  // daemon_shares.cc: who draws what
+  std::map<std::string, Presence> presence(Clock::time_point now) const;
+  void settle_shares(Clock::time_point now);
+  Assignment drawing(Clock::time_point now) const { return shares_.drawing(presence(now)); }
+  // Nobody comes any more who would draw the node's modules, or somebody is ready to.
+  bool is_settled(const std::string& node, Clock::time_point now) const;
 
   // daemon_frames.cc: the life of frames
   void advance(Clock::time_point now);
@@ -96,7 +103,11 @@ class Daemon {
   Links links_;
   SceneLoader loader_;
   Stage stage_;
-  Assignment assignment_;
+  const std::uint64_t session_;  // of this life of the controller
+  Assignment assignment_;        // as the deployment has it
+  Shares shares_;
+  std::map<std::uint64_t, Assignment> open_;      // who draws the frames that are open
+  std::optional<Clock::time_point> first_shown_;  // when the first scene was there
   Membership members_;
   FrameBarrier barrier_;
   controller::Pacing pacing_;

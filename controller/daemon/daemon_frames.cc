@@ -24,19 +24,19 @@ void Daemon::advance(Clock::time_point now) {
 bool Daemon::may_begin(Clock::time_point now) const {
   if (!stage_.has_scene() || !pacing_.due(now) || !barrier_.may_begin()) return false;
   if (has_display_sink() && members_.display() == nullptr) return false;
-  const std::vector<std::string> nodes = drawing_nodes();
-  if (nodes.empty()) return false;
+  if (drawing(now).empty()) return false;
   if (!asked_) return true;
   // Who asks for frames gets whole ones: a node that has not come yet is waited for, one that died is not.
-  return std::ranges::all_of(assignment_, [&](const auto& entry) {
-    const Phase phase = members_.find(entry.first)->phase;
-    return entry.second.empty() || phase == Phase::kReady || phase == Phase::kOut;
-  });
+  return std::ranges::all_of(assignment_, [&](const auto& entry) { return is_settled(entry.first, now); });
 }
 
 void Daemon::begin_frame(Clock::time_point now) {
   if (const auto update = stage_.animate(barrier_.next_frame())) publish(*update);
-  const std::uint64_t frame = barrier_.begin(drawing_nodes(), now);
+  const Assignment drawn_by = drawing(now);
+  std::vector<std::string> nodes;
+  for (const auto& [node, modules] : drawn_by) nodes.push_back(node);
+  const std::uint64_t frame = barrier_.begin(nodes, now);
+  open_[frame] = drawn_by;
   pacing_.begun(now);
   log_.begun(frame, stage_.roi(), stage_.store().hash(), now);
   proto::Envelope envelope;
@@ -44,7 +44,8 @@ void Daemon::begin_frame(Clock::time_point now) {
   begin.set_frame(frame);
   begin.set_sequence(stage_.store().sequence());
   begin.set_time_modules(asked_ && asked_->time_modules);
-  publish(envelope);
+  begin.mutable_node()->Add(nodes.begin(), nodes.end());
+  publish(std::move(envelope));
   log::debug("frame {}: begin", frame);
 }
 
@@ -59,11 +60,21 @@ void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
 }
 
 void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
-  const std::vector<std::uint32_t> stale = modules_without(assignment_, swap.ready);
+  const Assignment drawn_by = std::move(open_.extract(swap.frame).mapped());
+  std::vector<std::uint32_t> fresh;
   proto::Envelope envelope;
-  envelope.mutable_swap()->set_frame(swap.frame);
-  for (const std::uint32_t module : stale) envelope.mutable_swap()->add_stale_modules(module);
-  publish(envelope);
+  proto::SwapFrame& message = *envelope.mutable_swap();
+  message.set_frame(swap.frame);
+  for (const std::string& node : swap.ready) {
+    const std::vector<std::uint32_t>& modules = drawn_by.at(node);
+    proto::Share& share = *message.add_share();
+    share.set_node(node);
+    share.mutable_module()->Add(modules.begin(), modules.end());
+    fresh.insert(fresh.end(), modules.begin(), modules.end());
+  }
+  const std::vector<std::uint32_t> stale = modules_beside(assignment_, fresh);
+  message.mutable_stale_modules()->Add(stale.begin(), stale.end());
+  publish(std::move(envelope));
   log_.swapped(swap, stale, now);
   if (!has_display_sink()) log_.shown(swap.frame, now);
   last_swap_ = now;
@@ -82,7 +93,9 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   const bool never_shown =
       members_.display() == nullptr || (has_deadline() && last_swap_ && now - *last_swap_ > patience);
   const bool stuck = barrier_.in_flight() == 0 && std::ranges::all_of(assignment_, [&](const auto& entry) {
-                       return entry.second.empty() || members_.find(entry.first)->phase == Phase::kOut;
+                       const Phase phase = members_.find(entry.first)->phase;
+                       if (shares_.is_spare(entry.first)) return phase == Phase::kOut || phase == Phase::kAbsent;
+                       return entry.second.empty() || phase == Phase::kOut;
                      });
   const bool failed = swapped && !asked_->error.empty();
   const bool complete = swapped && (shown || never_shown || failed);

@@ -1,6 +1,4 @@
 // Nodes and the display: joining, keeping up, going.
-#include <algorithm>
-
 #include "base/log.h"
 #include "controller/daemon/daemon.h"
 #include "proto/calibration_file.h"
@@ -12,16 +10,18 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   const Peer* known = members_.at(message.peer);
   const bool asks_again = known != nullptr && known->name == join.name() && !known->last_heard;
   const std::string images_before = images_endpoint();
-  const Result<std::string> name = members_.join(join, message.peer);
-  if (!name) {
-    log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), name.error().message());
+  const Result<std::optional<std::string>> joined = members_.join(join, message.peer, now);
+  if (!joined) {
+    log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), joined.error().message());
     proto::Envelope refused;
-    refused.mutable_refused()->set_reason(name.error().message());
+    refused.mutable_refused()->set_reason(joined.error().message());
     return send(message.peer, refused);
   }
-  barrier_.gone(*name);  // whatever it drew before it joined anew is lost
-  if (!asks_again) log::info("\"{}\" joins (process {})", *name, join.process());
-  const Peer& peer = *members_.find(*name);
+  if (!*joined) return log::debug("\"{}\" (process {}) comes under a name that may live", join.name(), join.process());
+  const std::string& name = **joined;
+  barrier_.gone(name);  // whatever it drew before it joined anew is lost
+  if (!asks_again) log::info("\"{}\" joins (process {})", name, join.process());
+  const Peer& peer = *members_.find(name);
   const bool moved = !asks_again || images_endpoint() != images_before;
   if (peer.role == proto::DISPLAY && moved) publish_images_endpoint();
   if (stage_.has_scene()) welcome(peer, now);
@@ -36,7 +36,8 @@ void Daemon::take_heartbeat(const wire::Message& message) {
   }
   const std::string& hash = message.envelope.heartbeat().state_hash();
   const Phase before = peer->phase;
-  members_.holds(message.peer, hash, stage_.store().remembers(hash));
+  const bool can_draw = peer->role != proto::NODE || message.envelope.heartbeat().share() == shares_.number(peer->name);
+  members_.holds(message.peer, hash, can_draw && stage_.store().remembers(hash));
   if (peer->phase != before) log::info("\"{}\" is ready", peer->name);
 }
 
@@ -48,9 +49,10 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
   welcome.set_bulk_endpoint(links_.bulk.endpoint());
   *welcome.mutable_display() = write_calibration(deployment.display);
   if (peer.role == proto::NODE) {
-    for (const std::uint32_t module : assignment_.at(peer.name)) welcome.add_modules(module);
+    for (const std::uint32_t module : shares_.of(peer.name)) welcome.add_modules(module);
+    welcome.set_share(shares_.number(peer.name));
   } else {
-    for (const std::uint32_t module : modules_without(assignment_, {})) welcome.add_modules(module);
+    for (const std::uint32_t module : modules_beside(assignment_, {})) welcome.add_modules(module);
   }
   welcome.set_images_endpoint(images_endpoint());
   welcome.set_heartbeat_ms(static_cast<std::uint32_t>(deployment.pacing.heartbeat.count()));
@@ -91,12 +93,6 @@ void Daemon::publish_images_endpoint() {
 std::string Daemon::images_endpoint() const {
   const Peer* display = members_.display();
   return display == nullptr ? "" : display->images_endpoint;
-}
-
-std::vector<std::string> Daemon::drawing_nodes() const {
-  std::vector<std::string> nodes = members_.ready_nodes();
-  std::erase_if(nodes, [&](const std::string& node) { return assignment_.at(node).empty(); });
-  return nodes;
 }
 
 }  // namespace lfd::controller

@@ -134,7 +134,8 @@ proto::Status Daemon::status(Clock::time_point now) const {
     entry.set_state_hash(peer->state_hash);
     entry.set_process(peer->process);
     if (peer->role != proto::NODE) continue;
-    for (const std::uint32_t module : assignment_.at(peer->name)) entry.add_module(module);
+    for (const std::uint32_t module : shares_.of(peer->name)) entry.add_module(module);
+    entry.set_spare(shares_.is_spare(peer->name));
   }
   return status;
 }

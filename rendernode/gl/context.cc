@@ -55,6 +55,14 @@ bool Context::is_software() const {
                              [&](std::string_view name) { return description_.find(name) != std::string::npos; });
 }
 
+bool Context::is_lost() const {
+  if (!lost_ && tells_resets_ && glGetGraphicsResetStatus() != GL_NO_ERROR) {
+    log::warn("the GPU was reset: the GL context is lost");
+    return true;
+  }
+  return lost_;
+}
+
 int Context::error_count() { return errors; }
 
 Status Context::open(void* display) {
@@ -67,16 +75,23 @@ Status Context::open(void* display) {
   EGLConfig config = nullptr;
   EGLint configs = 0;
   if (!eglChooseConfig(display, config_wanted.data(), &config, 1, &configs) || configs == 0) config = EGL_NO_CONFIG_KHR;
-  const std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_CONTEXT_OPENGL_DEBUG,
-                                     EGL_TRUE,
-                                     EGL_NONE};
+  std::vector<EGLint> wanted{EGL_CONTEXT_MAJOR_VERSION,
+                             4,
+                             EGL_CONTEXT_MINOR_VERSION,
+                             5,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                             EGL_CONTEXT_OPENGL_DEBUG,
+                             EGL_TRUE,
+                             EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                             EGL_LOSE_CONTEXT_ON_RESET,
+                             EGL_NONE};
   context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
+  tells_resets_ = context_ != EGL_NO_CONTEXT;
+  if (!tells_resets_) {
+    wanted.erase(wanted.end() - 3, wanted.end() - 1);  // a driver that knows no resets
+    context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
+  }
   if (context_ == EGL_NO_CONTEXT) return Error(fmt::format("no OpenGL 4.5 core context ({:#x})", eglGetError()));
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
     return Error(fmt::format("eglMakeCurrent failed ({:#x})", eglGetError()));

@@ -39,6 +39,12 @@ class Context {
   // Whether the renderer is one that is known to draw on the CPU.
   bool is_software() const;
 
+  // Whether the driver has given the context up (a reset of the GPU): nothing it made can be used any more. Asks the
+  // driver's robustness query, where it has one.
+  bool is_lost() const;
+  // From now on it counts as lost (for tests).
+  void lose() { lost_ = true; }
+
   // GL errors that the debug output has reported so far; tests want 0.
   static int error_count();
 
@@ -49,6 +55,8 @@ class Context {
   void* display_ = nullptr;
   void* context_ = nullptr;
   std::string description_;
+  bool tells_resets_ = false;
+  bool lost_ = false;
 };
 
 }  // namespace lfd::gl

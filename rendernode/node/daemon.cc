@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/fault.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
@@ -65,7 +66,8 @@ void Daemon::wait_for_something(const StopSignals& signals) const {
   wire::wait(sockets, descriptors, kTick);
 }
 
-void Daemon::say(const proto::Envelope& envelope) {
+void Daemon::say(proto::Envelope envelope) {
+  envelope.set_session(session_);
   if (const Status sent = control_.send(envelope); !sent) log::debug("{}", sent.error().message());
 }
 
@@ -86,7 +88,8 @@ void Daemon::join_or_beat(Clock::time_point now) {
   proto::Envelope words;
   if (welcome_) {
     if (!gatherer_.complete()) follow_assets();
-    words.mutable_heartbeat()->set_state_hash(hears_state_ ? ready_hash_ : "");
+    words.mutable_heartbeat()->set_state_hash(hears_state_ && can_draw() ? ready_hash_ : "");
+    words.mutable_heartbeat()->set_share(share_);
   } else {
     auto* join = words.mutable_join();
     join->set_role(proto::NODE);
@@ -112,43 +115,58 @@ Status Daemon::hear_control() {
     if (envelope.has_refused()) {
       return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
     }
-    if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope.welcome()));
+    if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope.welcome(), envelope.session()));
+    if (envelope.session() != session_) continue;
+    if (envelope.has_assign()) {
+      const auto& modules = envelope.assign().modules();
+      log::info("draws modules of another node from now on");
+      LFD_TRY_STATUS(take_share(envelope.assign().share(), {modules.begin(), modules.end()}));
+    }
     if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
     if (envelope.has_quit()) ended_ = true;
   }
   return {};
 }
 
-Status Daemon::welcome(const proto::Welcome& message) {
-  auto display = read_calibration(message.display());
-  if (!display) return display.error().within("the controller's display");
-  std::vector<std::uint32_t> modules(message.modules().begin(), message.modules().end());
-  for (const auto k : modules) {
-    if (k >= display->modules.size())
-      return Error(fmt::format("the controller gives module {} of {}", k, display->modules.size()));
-  }
-  if (modules.size() > MODULES_PER_NODE)
-    return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
+Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   LFD_TRY(state_socket_, wire::connect_subscriber(*context_, message.state_endpoint()));
   LFD_TRY(bulk_, wire::connect_dealer(*context_, message.bulk_endpoint(), wire::kChunks));
+  auto display = read_calibration(message.display());
+  if (!display) return display.error().within("the controller's display");
+  display_ = *std::move(display);
+  session_ = session;
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
   may_drop_ = message.may_drop();
   sink_ = static_cast<proto::Deployment::Sink>(message.sink());
   hears_state_ = false;
   if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
-  begun_.clear();
-  waiting_.clear();
-  states_.clear();
+  outbox_ = {};
   gatherer_.ask_again();
-  retire_drawing();
-  if (!modules.empty())
-    drawing_ = std::make_unique<RenderThread>(options_.gpu, *std::move(display), std::move(modules));
+  LFD_TRY_STATUS(take_share(message.share(), {message.modules().begin(), message.modules().end()}));
   follower_ = {};
   take_snapshot(message.snapshot());
+  images_endpoint_.clear();  // greet it anew, wherever it is
   use_images_endpoint(message.images_endpoint());
   welcome_ = true;
   next_words_ = Clock::now();
   log::info("joined; {} modules, state {}", message.modules_size(), follower_.sequence());
+  return {};
+}
+
+Status Daemon::take_share(std::uint64_t share, std::vector<std::uint32_t> modules) {
+  for (const auto k : modules) {
+    if (k >= display_->modules.size())
+      return Error(fmt::format("the controller gives module {} of {}", k, display_->modules.size()));
+  }
+  if (modules.size() > MODULES_PER_NODE)
+    return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
+  begun_.clear();
+  waiting_.clear();
+  states_.clear();
+  retire_drawing();
+  share_ = share;
+  drawing_started_ = false;
+  if (!modules.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *display_, std::move(modules));
   return {};
 }
 
@@ -174,8 +192,9 @@ void Daemon::take_snapshot(const proto::Snapshot& snapshot) {
 void Daemon::hear_state() {
   if (!state_socket_) return;
   while (const auto message = state_socket_->receive()) {
-    last_heard_ = Clock::now();
     const auto& envelope = message->envelope;
+    if (envelope.session() != session_) continue;  // another controller's, that this node has not joined (yet)
+    last_heard_ = Clock::now();
     switch (envelope.body_case()) {
       case proto::Envelope::kUpdate:
         follower_.update_came(envelope.update());
@@ -184,6 +203,8 @@ void Daemon::hear_state() {
         break;
       case proto::Envelope::kBegin:
         follower_.pulse_came(envelope.begin().sequence());
+        if (!draws(envelope.begin())) break;
+        fault::at(fault::kBegin, envelope.begin().frame());
         begun_.push_back({envelope.begin(), follower_.state()});
         begin_frames();  // before the next update: a frame is drawn from the state it names
         break;

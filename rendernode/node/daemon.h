@@ -58,15 +58,19 @@ class Daemon {
   void wait_for_something(const StopSignals& signals) const;
   void join_or_beat(Clock::time_point now);
   Status hear_control();
-  Status welcome(const proto::Welcome& message);
+  Status welcome(const proto::Welcome& message, std::uint64_t session);
+  // These are its modules from now on; what it drew of others ends.
+  Status take_share(std::uint64_t share, std::vector<std::uint32_t> modules);
+  bool can_draw() const { return !drawing_ || drawing_started_; }
   void retire_drawing();
   void hear_state();
   void take_snapshot(const proto::Snapshot& snapshot);
   void follow_assets();
   void hear_bulk();
-  void say(const proto::Envelope& envelope);
+  void say(proto::Envelope envelope);
 
   // daemon_frames.cc: frames and images
+  bool draws(const proto::BeginFrame& begin) const;  // this node is named
   void begin_frames();
   bool is_overtaken(const Begun& begun) const;
   Status take_events();
@@ -91,7 +95,11 @@ class Daemon {
   std::shared_ptr<const Assets> ready_assets_;
   std::string ready_hash_;
 
+  std::uint64_t session_ = 0;  // of the controller that welcomed it
+  std::uint64_t share_ = 0;    // the number of what drawing_ draws
+  std::optional<DisplayCalibration> display_;
   std::unique_ptr<RenderThread> drawing_;
+  bool drawing_started_ = false;  // its context is there
   // Of earlier welcomes, still in a frame that nobody waits for.
   std::vector<std::unique_ptr<RenderThread>> retired_;
   std::deque<Begun> begun_;

@@ -1,4 +1,7 @@
 // Frames through the node: begin, drawn, ready, and the images on their way.
+#include <algorithm>
+
+#include "base/fault.h"
 #include "base/log.h"
 #include "proto/state.h"
 #include "rendernode/node/daemon.h"
@@ -12,6 +15,10 @@ constexpr auto kHelloPause = 300ms;
 constexpr std::size_t kMostBegun = 8;
 
 }  // namespace
+
+bool Daemon::draws(const proto::BeginFrame& begin) const {
+  return std::ranges::find(begin.node(), options_.name) != begin.node().end();
+}
 
 // A frame is drawn as soon as its state is here; a node that is far behind passes the oldest over.
 void Daemon::begin_frames() {
@@ -42,11 +49,14 @@ Status Daemon::take_events() {
     if (!event) break;
     switch (event->kind) {
       case FrameEvent::Kind::kStarted:
+        drawing_started_ = true;
+        next_words_ = Clock::now();
         break;
       case FrameEvent::Kind::kFailed:
         return Error(event->error);
       case FrameEvent::Kind::kDrawn: {
         proto::Envelope drawn;
+        fault::at(fault::kDrawn, event->frame);
         drawn.mutable_drawn()->set_frame(event->frame);
         say(drawn);
         break;
@@ -114,6 +124,7 @@ std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResu
 }
 
 void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
+  fault::at(fault::kReady, frame);
   report.set_node(options_.name);
   const auto drawn = states_.extract(frame);
   if (drawn && report.error().empty()) report.set_state_hash(drawn.mapped().hash);
@@ -159,8 +170,11 @@ void Daemon::send_images() {
   while (const OutgoingImage* image = outbox_.next()) {
     proto::Envelope envelope;
     *envelope.mutable_image() = image->header;
+    envelope.set_session(session_);
     if (!images_->send(envelope, image->payload)) break;
+    const std::uint64_t frame = image->header.frame();
     outbox_.sent();
+    fault::at(fault::kSending, frame);  // the first of its images has gone
   }
   hand_on_waiting();
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "base/fault.h"
 #include "base/log.h"
 
 namespace lfd::node {
@@ -13,6 +14,7 @@ using namespace std::chrono_literals;
 
 // How long a finished frame waits for the next job, so that the GPU has work while its images are packed.
 constexpr auto kNextJobPatience = 2ms;
+constexpr int kMostLosses = 3;  // of contexts without a frame drawn between them; then the GPU is of no use
 
 }  // namespace
 
@@ -47,59 +49,85 @@ void RenderThread::say(FrameEvent event) {
   if (!events_.put(std::move(event))) log::debug("a frame event finds no listener");
 }
 
-void RenderThread::run(int gpu, DisplayCalibration display, std::vector<std::uint32_t> modules) {
-  auto context = gl::Context::create(gpu);
-  if (!context) {
-    say({FrameEvent::Kind::kFailed, 0, {}, context.error().message()});
-    ended_ = true;
-    return;
-  }
-  log::info("draws {} modules with {}", modules.size(), (*context)->description());
-  {
-    Renderer renderer(**context, std::move(display), std::move(modules));
-    say({FrameEvent::Kind::kStarted, 0, {}, {}});
-    loop(renderer);
+void RenderThread::run(int gpu, const DisplayCalibration& display, const std::vector<std::uint32_t>& modules) {
+  while (!stop_) {
+    if (draw_with_a_context(gpu, display, modules) != End::kLost) break;
+    give_up_frames("the GL context was lost");
+    if (++lost_in_a_row_ <= kMostLosses) continue;
+    say({FrameEvent::Kind::kFailed, 0, {}, fmt::format("the GL context was lost {} times in a row", lost_in_a_row_)});
+    break;
   }
   ended_ = true;
 }
 
-void RenderThread::loop(Renderer& renderer) {
+RenderThread::End RenderThread::draw_with_a_context(int gpu, const DisplayCalibration& display,
+                                                    const std::vector<std::uint32_t>& modules) {
+  auto context = gl::Context::create(gpu);
+  if (!context) {
+    say({FrameEvent::Kind::kFailed, 0, {}, context.error().message()});
+    return End::kFailed;
+  }
+  log::info("draws {} modules with {}", modules.size(), (*context)->description());
+  Renderer renderer(**context, display, modules);
+  say({FrameEvent::Kind::kStarted, 0, {}, {}});
+  return loop(**context, renderer);
+}
+
+RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
   while (!stop_) {
     if (under_way_.empty()) {
       if (auto job = jobs_.take_within(50ms)) begin(renderer, std::move(*job));
+      if (context.is_lost()) return End::kLost;
       continue;
     }
-    if (!renderer.finished(20ms)) continue;
-    say({FrameEvent::Kind::kDrawn, under_way_.front(), {}, {}});
+    const UnderWay oldest = under_way_.front();
+    if (fault::due("lose-context", fault::kDrawing, oldest.frame)) context.lose();
+    if (!renderer.finished(20ms) && !context.is_lost()) continue;
+    if (context.is_lost()) return End::kLost;
+    if (fault::slowdown() > 1) std::this_thread::sleep_for((fault::slowdown() - 1) * (Clock::now() - oldest.begun));
+    say({FrameEvent::Kind::kDrawn, oldest.frame, {}, {}});
     if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, std::move(*job));
     finish(renderer);
+    lost_in_a_row_ = 0;
   }
+  return End::kStopped;
 }
 
 // A frame whose state cannot be drawn is ready without images; its report says why, and its modules keep what they
 // show.
 void RenderThread::begin(Renderer& renderer, DrawJob job) {
   ++pending_;
+  fault::at(fault::kDrawing, job.frame);
   FrameOptions options;
   options.buffers.bits = job.state->buffers();
   options.time_modules = job.time_modules;
   options.reuse = !job.time_modules;
+  const auto begun = Clock::now();
   Status drawn = renderer.set_state(*job.state, *job.assets);
   if (drawn) drawn = renderer.draw(options);
   if (drawn) {
-    under_way_.push_back(job.frame);
+    under_way_.push_back({job.frame, begun});
     return;
   }
-  log::error("frame {}: {}", job.frame, drawn.error().message());
+  say_undrawn(job.frame, drawn.error().message());
+}
+
+void RenderThread::say_undrawn(std::uint64_t frame, const std::string& why) {
+  log::error("frame {}: {}", frame, why);
   FrameResult nothing;
-  nothing.report.set_error(drawn.error().message());
-  say({FrameEvent::Kind::kDrawn, job.frame, {}, {}});
-  say({FrameEvent::Kind::kReady, job.frame, std::move(nothing), {}});
+  nothing.report.set_error(why);
+  say({FrameEvent::Kind::kDrawn, frame, {}, {}});
+  say({FrameEvent::Kind::kReady, frame, std::move(nothing), {}});
+}
+
+void RenderThread::give_up_frames(const std::string& why) {
+  for (const UnderWay& frame : under_way_) say_undrawn(frame.frame, why);
+  under_way_.clear();
 }
 
 void RenderThread::finish(Renderer& renderer) {
   FrameResult result = renderer.collect();
-  const std::uint64_t frame = under_way_.front();
+  const std::uint64_t frame = under_way_.front().frame;
   under_way_.pop_front();
   say({FrameEvent::Kind::kReady, frame, std::move(result), {}});
 }

@@ -1,4 +1,5 @@
-// The thread that owns the GL context: takes jobs, draws, hands finished frames back.
+// The thread that owns the GL context: takes jobs, draws, hands finished frames back, and starts anew where the GPU was
+// reset.
 #pragma once
 
 #include <atomic>
@@ -24,7 +25,7 @@ struct DrawJob {
 
 struct FrameEvent {
   enum class Kind {
-    kStarted,  // the context is there
+    kStarted,  // the context is there (again)
     kDrawn,    // the GPU is done with the frame
     kReady,    // its images are in hand
     kFailed,   // there will be no more frames: `error`
@@ -53,13 +54,24 @@ class RenderThread {
   bool stop_within(Clock::duration patience);
 
  private:
-  void run(int gpu, DisplayCalibration display, std::vector<std::uint32_t> modules);
-  void loop(Renderer& renderer);
+  enum class End { kStopped, kLost, kFailed };
+
+  void run(int gpu, const DisplayCalibration& display, const std::vector<std::uint32_t>& modules);
+  // Until it is asked to end or its context is lost.
+  End draw_with_a_context(int gpu, const DisplayCalibration& display, const std::vector<std::uint32_t>& modules);
+  End loop(gl::Context& context, Renderer& renderer);
+  void give_up_frames(const std::string& why);
+  void say_undrawn(std::uint64_t frame, const std::string& why);
   void begin(Renderer& renderer, DrawJob job);
   void finish(Renderer& renderer);
   void say(FrameEvent event);
 
-  std::deque<std::uint64_t> under_way_;  // frames submitted and not yet collected
+  struct UnderWay {
+    std::uint64_t frame = 0;
+    Clock::time_point begun;
+  };
+  std::deque<UnderWay> under_way_;  // frames submitted and not yet collected
+  int lost_in_a_row_ = 0;           // contexts, without a frame between them
   wire::Mailbox<DrawJob> jobs_{8};
   wire::Mailbox<FrameEvent> events_{64};
   std::atomic<bool> stop_{false}, ended_{false};

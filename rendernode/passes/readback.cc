@@ -32,7 +32,7 @@ Status Readback::start(std::vector<ReadbackItem> items, ImageSize size, PixelInd
     mapped_ = static_cast<const std::byte*>(glMapNamedBufferRange(name, 0, static_cast<GLsizeiptr>(total), kAccess));
     capacity_ = mapped_ != nullptr ? total : 0;
     LFD_TRY_STATUS(gl::memory_status(fmt::format("reading {:.0f} MiB of pictures back", total / double{1 << 20})));
-    LFD_CHECK(mapped_ != nullptr, "the read-back buffer cannot be mapped");
+    if (mapped_ == nullptr) return Error("the read-back buffer cannot be mapped");
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer_.name());
   for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -52,7 +52,7 @@ bool Readback::finished(Clock::duration at_most) {
   LFD_CHECK(fence_ != nullptr, "nothing was started");
   const auto nanoseconds = std::chrono::duration_cast<std::chrono::nanoseconds>(at_most).count();
   const GLenum state = glClientWaitSync(fence_, 0, static_cast<GLuint64>(nanoseconds));
-  return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+  return state != GL_TIMEOUT_EXPIRED;  // nor is a fence waited for that the driver has given up
 }
 
 std::span<const std::byte> Readback::bytes(std::size_t item) const {

@@ -1,6 +1,8 @@
 // The node's side of the protocol, as plainly as possible.
 #include "tests/harness/played_node.h"
 
+#include <algorithm>
+
 #include "base/check.h"
 #include "base/hash.h"
 #include "proto/state.h"
@@ -40,6 +42,7 @@ void PlayedNode::join_or_beat() {
     send(words);
   } else if (habits.beats) {
     words.mutable_heartbeat()->set_state_hash(hears_state_ ? state_hash() : "");
+    words.mutable_heartbeat()->set_share(share_);
     send(words);
   }
 }
@@ -63,8 +66,13 @@ void PlayedNode::step() {
 void PlayedNode::take_control(const proto::Envelope& envelope) {
   if (envelope.has_refused()) refusal = envelope.refused().reason();
   if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
+  if (envelope.has_assign()) {
+    share_ = envelope.assign().share();
+    assigned.assign(envelope.assign().modules().begin(), envelope.assign().modules().end());
+  }
   if (!envelope.has_welcome() || welcome) return;
   welcome = envelope.welcome();
+  share_ = welcome->share();
   state_socket_ = opened(wire::connect_subscriber(context_, welcome->state_endpoint()));
   bulk_ = opened(wire::connect_dealer(context_, welcome->bulk_endpoint(), wire::kChunks));
   take_snapshot(welcome->snapshot());
@@ -85,7 +93,9 @@ void PlayedNode::take_state(const proto::Envelope& envelope) {
   }
   if (envelope.has_begin()) {
     begun.push_back(envelope.begin().frame());
-    if (habits.draws) answer(envelope.begin().frame());
+    const bool is_named = std::ranges::find(envelope.begin().node(), name_) != envelope.begin().node().end();
+    if (is_named) named.push_back(envelope.begin().frame());
+    if (is_named && habits.draws) answer(envelope.begin().frame());
   }
   if (envelope.has_swap()) swaps.push_back(envelope.swap());
 }

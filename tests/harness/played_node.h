@@ -44,6 +44,8 @@ class PlayedNode {
   proto::State state;
   std::map<std::string, std::string> assets;  // bytes by hash, complete ones only
   std::vector<std::uint64_t> begun;           // frames, in the order of their begins
+  std::vector<std::uint64_t> named;           // those of them that it was named for
+  std::vector<std::uint32_t> assigned;        // the modules of its last Assign
   std::vector<proto::SwapFrame> swaps;
   bool quit = false;
 
@@ -70,6 +72,7 @@ class PlayedNode {
   std::optional<wire::Socket> state_socket_, bulk_;
   std::map<std::string, std::string> partial_;
   Clock::time_point next_words_{};
+  std::uint64_t share_ = 0;
   bool hears_state_ = false;  // the subscription is known to have arrived
   std::optional<std::string> wanted_;
 };
