@@ -1,0 +1,100 @@
+// Daemons by their names.
+#include "tests/system/fault_stage.h"
+
+#include <signal.h>
+
+#include <thread>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "proto/frame_files.h"
+
+namespace lfd::harness {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr auto kPause = std::chrono::milliseconds(20);
+constexpr int kModules = 4;
+
+}  // namespace
+
+FaultStage::FaultStage(const std::string& more, std::string pacing) {
+  endpoint_ = fmt::format("tcp://127.0.0.1:{}", free_port());
+  const std::string addresses = fmt::format(
+      "sink: DISPLAY addresses {{ control: \"{}\" state: \"tcp://127.0.0.1:{}\" bulk: \"tcp://127.0.0.1:{}\" }} ",
+      endpoint_, free_port(), free_port());
+  deployment_ = bench_.deployment(addresses + pacing + more);
+}
+
+Process& FaultStage::start(const std::string& name, Environment environment) {
+  if (daemons_.contains(name) && !daemons_[name]->poll()) kill(name);
+  if (name == "controller") {
+    daemons_[name] = start_program("lfd-controller", {deployment_, "--log-level", "debug"}, std::move(environment));
+    EXPECT_TRUE(daemons_[name]->wait_for_line("control tcp", kClusterPatience));
+  } else if (name == "display") {
+    daemons_[name] = start_program("lfd-display", {deployment_, "--out", shown()}, std::move(environment));
+  } else {
+    daemons_[name] = start_program("lfd-rendernode", {deployment_, "--name", name}, std::move(environment));
+  }
+  return *daemons_[name];
+}
+
+void FaultStage::kill(const std::string& name) {
+  daemons_.at(name)->signal(SIGKILL);
+  EXPECT_TRUE(daemons_.at(name)->wait(kClusterPatience)) << name;
+}
+
+std::uint64_t FaultStage::last_frame() const {
+  const Result<proto::Status> status = status_at(endpoint_);
+  EXPECT_TRUE(status);
+  return status ? status->frame() : 0;
+}
+
+testing::AssertionResult FaultStage::is_whole() const {
+  const auto whole = becomes(endpoint_, [](const proto::Status& status) {
+    return status.stale_modules() == 0 && peer_in(status, "left").state() == "ready" &&
+           peer_in(status, "right").state() == "ready" && peer_in(status, "display").state() == "ready" &&
+           all_nodes_follow(status);
+  });
+  if (!whole) return whole;
+  return shows_frames_after(last_frame() + 3);
+}
+
+std::map<int, std::string> FaultStage::pictures_from(std::uint64_t frame) const {
+  const auto deadline = Clock::now() + kClusterPatience;
+  while (Clock::now() < deadline) {
+    const std::uint64_t last = last_shown_frame().value_or(0);
+    for (std::uint64_t at = frame; at < last; ++at) {
+      std::map<int, std::string> pictures;
+      for (int module = 0; module < kModules; ++module) {
+        const auto path = image_path(shown(), at, static_cast<std::uint32_t>(module), proto::COLOR);
+        if (!fs::exists(path)) break;
+        if (auto bytes = read_file(path)) pictures[module] = *std::move(bytes);
+      }
+      if (pictures.size() == kModules) return pictures;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  ADD_FAILURE() << "no whole frame is written from frame " << frame << " on";
+  return {};
+}
+
+std::optional<std::uint64_t> FaultStage::last_shown_frame() const {
+  std::optional<std::uint64_t> last;
+  std::error_code failure;
+  for (fs::directory_iterator entry(shown(), failure), end; !failure && entry != end; entry.increment(failure)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with("frame-")) last = std::max(last.value_or(0), std::uint64_t{std::stoull(name.substr(6))});
+  }
+  return last;
+}
+
+testing::AssertionResult FaultStage::shows_frames_after(std::uint64_t frame) const {
+  const auto deadline = Clock::now() + kClusterPatience;
+  while (last_shown_frame().value_or(0) <= frame && Clock::now() < deadline) std::this_thread::sleep_for(kPause);
+  const std::uint64_t last = last_shown_frame().value_or(0);
+  if (last > frame) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "the last frame shown is " << last << "; one after " << frame << " is expected";
+}
+
+}  // namespace lfd::harness

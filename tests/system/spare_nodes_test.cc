@@ -1,0 +1,85 @@
+// Spare nodes: the modules of a node that dies are drawn by a spare, with the same pictures, and given back by policy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "base/log.h"
+#include "tests/system/fault_stage.h"
+
+namespace lfd::harness {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::uint32_t> modules_of(const FaultStage& stage, const std::string& name) {
+  const auto status = status_at(stage.endpoint());
+  EXPECT_TRUE(status);
+  if (!status) return {};
+  const proto::PeerStatus peer = peer_in(*status, name);
+  return {peer.module().begin(), peer.module().end()};
+}
+
+testing::AssertionResult draws_whole_without_right(const FaultStage& stage) {
+  return becomes(stage.endpoint(), [](const proto::Status& status) {
+    return peer_in(status, "right").state() == "out" && peer_in(status, "reserve").state() == "ready" &&
+           status.stale_modules() == 0;
+  });
+}
+
+std::map<int, std::string> start_all(FaultStage& stage) {
+  for (const char* const name : {"controller", "display", "reserve", "left", "right"}) stage.start(name);
+  EXPECT_TRUE(stage.is_whole());
+  EXPECT_THAT(modules_of(stage, "reserve"), ElementsAre());
+  return stage.pictures_from(stage.last_frame());
+}
+
+TEST(SpareNodes, TakeOverWithTheSamePicturesAndGiveBack) {
+  FaultStage stage("node { name: \"reserve\" spare: true }");
+  const auto before = start_all(stage);
+  stage.kill("right");
+  ASSERT_TRUE(draws_whole_without_right(stage));
+  EXPECT_THAT(modules_of(stage, "reserve"), ElementsAre(2, 3));
+  EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
+  EXPECT_EQ(lines_with(stage["controller"], "\"reserve\" takes over modules 2-3 of \"right\""), 1);
+
+  const std::ptrdiff_t stale_before = lines_with(stage["controller"], "2 modules stale");
+  stage.start("right");
+  ASSERT_TRUE(stage.is_whole());
+  EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
+  EXPECT_EQ(lines_with(stage["controller"], "2 modules stale"), stale_before) << "giving back costs no frame";
+  const auto status = status_at(stage.endpoint());
+  ASSERT_TRUE(status);
+  EXPECT_TRUE(peer_in(*status, "reserve").spare());
+}
+
+TEST(SpareNodes, KeepWhatTheyTookOverWherePolicySaysSo) {
+  FaultStage stage("node { name: \"reserve\" spare: true } give_back: NEVER");
+  const auto before = start_all(stage);
+  stage.kill("right");
+  ASSERT_TRUE(draws_whole_without_right(stage));
+  stage.start("right");
+  ASSERT_TRUE(stage.is_whole());
+  // Now right's own end costs nothing, and the spare's end is made good by right.
+  stage.kill("right");
+  ASSERT_TRUE(draws_whole_without_right(stage));
+  stage.start("right");
+  ASSERT_TRUE(stage.is_whole());
+  stage.kill("reserve");
+  ASSERT_TRUE(becomes(stage.endpoint(), [](const proto::Status& status) {
+    return peer_in(status, "reserve").state() == "out" && status.stale_modules() == 0;
+  }));
+  EXPECT_EQ(stage.pictures_from(stage.last_frame() + 2), before);
+}
+
+// A node that is configured and never comes has its modules drawn too.
+TEST(SpareNodes, StandInForANodeThatNeverComes) {
+  FaultStage stage("node { name: \"reserve\" spare: true }");
+  for (const char* const name : {"controller", "display", "reserve", "left"}) stage.start(name);
+  ASSERT_TRUE(becomes(stage.endpoint(), [](const proto::Status& status) {
+    return peer_in(status, "right").state() == "absent" && status.frame() > 3 && status.stale_modules() == 0;
+  }));
+  EXPECT_THAT(modules_of(stage, "reserve"), ElementsAre(2, 3));
+}
+
+}  // namespace
+}  // namespace lfd::harness
