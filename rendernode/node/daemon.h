@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "base/signals.h"
+#include "proto/asset_gatherer.h"
 #include "proto/deployment.pb.h"
+#include "proto/state_follower.h"
 #include "proto/wire/socket.h"
-#include "rendernode/node/asset_gatherer.h"
 #include "rendernode/node/file_sink.h"
 #include "rendernode/node/image_outbox.h"
 #include "rendernode/node/render_thread.h"
-#include "rendernode/node/state_follower.h"
 
 namespace lfd::node {
 

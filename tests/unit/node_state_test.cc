@@ -1,8 +1,8 @@
 // What a node knows of the state, and what it may send when.
 #include <gtest/gtest.h>
 
+#include "proto/state_follower.h"
 #include "rendernode/node/image_outbox.h"
-#include "rendernode/node/state_follower.h"
 
 namespace lfd::node {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "proto/state.h"
 
-namespace lfd::node {
+namespace lfd {
 
 class StateFollower {
  public:
@@ -27,4 +27,4 @@ class StateFollower {
   bool gap_ = false;
 };
 
-}  // namespace lfd::node
+}  // namespace lfd

@@ -10,7 +10,7 @@
 #include "proto/scene_data.h"
 #include "proto/wire.pb.h"
 
-namespace lfd::node {
+namespace lfd {
 
 class AssetGatherer {
  public:
@@ -44,9 +44,10 @@ class AssetGatherer {
  private:
   struct Partial {
     std::string bytes;
-    std::uint64_t total = 0;  // 0: not known yet
-    std::uint64_t asked = 0;  // up to here
-    std::uint64_t here = 0;   // bytes
+    std::uint64_t total = 0;   // 0: not known yet
+    std::uint64_t asked = 0;   // up to here
+    std::uint64_t here = 0;    // bytes
+    std::vector<bool> pieces;  // that are here
   };
 
   std::uint32_t piece_bytes_;
@@ -55,4 +56,4 @@ class AssetGatherer {
   int under_way_ = 0;
 };
 
-}  // namespace lfd::node
+}  // namespace lfd

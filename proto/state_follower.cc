@@ -1,9 +1,9 @@
 // Updates and gaps.
-#include "rendernode/node/state_follower.h"
+#include "proto/state_follower.h"
 
 #include "base/log.h"
 
-namespace lfd::node {
+namespace lfd {
 
 void StateFollower::snapshot_came(const proto::State& state) {
   if (state_ && !gap_ && state.sequence() <= state_->sequence()) return;
@@ -26,4 +26,4 @@ void StateFollower::pulse_came(std::uint64_t last_sequence) {
   if (state_ && last_sequence > state_->sequence()) gap_ = true;
 }
 
-}  // namespace lfd::node
+}  // namespace lfd

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "base/hash.h"
-#include "rendernode/node/asset_gatherer.h"
+#include "proto/asset_gatherer.h"
 
-namespace lfd::node {
+namespace lfd {
 namespace {
 
 constexpr std::uint32_t kPiece = 100;
@@ -99,6 +99,36 @@ TEST(AssetGatherer, PiecesThatDoNotFitAreRefused) {
   EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x')));  // absurd
 }
 
+TEST(AssetGatherer, PiecesThatWereNotAskedForAreRefused) {
+  const Served s = served({250});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(s.scene);
+  ASSERT_EQ(gatherer.next_requests().size(), 1u);
+  proto::Chunk chunk;
+  chunk.set_hash(s.content.begin()->first);
+  for (const std::uint64_t offset : {std::uint64_t{100}, std::uint64_t{50}, std::uint64_t{0} - 60}) {
+    chunk.set_offset(offset);
+    chunk.set_total(250);
+    EXPECT_FALSE(gatherer.piece_came(chunk, std::string(100, 'x'))) << offset;  // the last one: its end overflows
+    EXPECT_EQ(gatherer.next_requests().size(), 1u) << "it is asked for again from its beginning";
+  }
+}
+
+TEST(AssetGatherer, APieceThatComesTwiceCountsOnce) {
+  const Served s = served({250});
+  AssetGatherer gatherer(kPiece);
+  gatherer.want(s.scene);
+  const auto first = gatherer.next_requests();
+  ASSERT_EQ(first.size(), 1u);
+  ASSERT_TRUE(answer(gatherer, s, first[0]));
+  const auto others = gatherer.next_requests();
+  ASSERT_EQ(others.size(), 2u);
+  for (int times = 0; times < 2; ++times) ASSERT_TRUE(answer(gatherer, s, others[0]));
+  EXPECT_FALSE(gatherer.complete());
+  ASSERT_TRUE(answer(gatherer, s, others[1]));
+  EXPECT_TRUE(gatherer.complete());
+}
+
 // The controller shows another scene by the time it reads the request: nothing stays under way for ever.
 TEST(AssetGatherer, WhatIsNotFoundLeavesRoomForOthers) {
   const Served old = served({210, 220, 230, 240, 250, 260, 270, 280, 290}), next = served({300});
@@ -130,4 +160,4 @@ TEST(AssetGatherer, ALostLinkCostsNothing) {
 }
 
 }  // namespace
-}  // namespace lfd::node
+}  // namespace lfd

@@ -1,5 +1,5 @@
 // Gathering assets piece by piece.
-#include "rendernode/node/asset_gatherer.h"
+#include "proto/asset_gatherer.h"
 
 #include <algorithm>
 #include <set>
@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 
-namespace lfd::node {
+namespace lfd {
 namespace {
 
 std::set<std::string> hashes_of(const proto::Scene& scene) {
@@ -17,6 +17,14 @@ std::set<std::string> hashes_of(const proto::Scene& scene) {
     if (material.has_texture()) hashes.insert(material.texture().picture());
   }
   return hashes;
+}
+
+// As long as `size`, without taking more than twice that, or more than `total`: what somebody says that an asset has
+// costs nothing before it comes.
+void grow(std::string& bytes, std::uint64_t size, std::uint64_t total) {
+  if (bytes.size() >= size) return;
+  if (bytes.capacity() < size) bytes.reserve(std::min(total, std::max<std::uint64_t>(size, 2 * bytes.capacity())));
+  bytes.resize(size);
 }
 
 }  // namespace
@@ -52,15 +60,21 @@ Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view byt
   const auto found = missing_.find(chunk.hash());
   if (found == missing_.end()) return {};  // no longer wanted
   Partial& partial = found->second;
-  const std::uint64_t end = chunk.offset() + bytes.size();
-  const std::uint64_t expected = std::min<std::uint64_t>(chunk.offset() + piece_bytes_, chunk.total());
-  if (chunk.total() > kMaxAsset_bytes || end != expected || (partial.total != 0 && partial.total != chunk.total())) {
+  const std::uint64_t left = chunk.total() - std::min<std::uint64_t>(chunk.offset(), chunk.total());
+  const bool was_asked = chunk.offset() < partial.asked && chunk.offset() % piece_bytes_ == 0;
+  const bool is_whole = bytes.size() == std::min<std::uint64_t>(piece_bytes_, left);
+  const bool agrees = partial.here == 0 || partial.total == chunk.total();
+  if (chunk.total() > kMaxAsset_bytes || !was_asked || !is_whole || !agrees) {
     partial = {};
     return Error(fmt::format("asset {}: a piece of {} bytes at {} of {} does not fit", chunk.hash(), bytes.size(),
                              chunk.offset(), chunk.total()));
   }
   partial.total = chunk.total();
-  partial.bytes.resize(chunk.total());
+  const std::uint64_t piece = chunk.offset() / piece_bytes_;
+  if (partial.pieces.size() <= piece) partial.pieces.resize(piece + 1);
+  if (partial.pieces[piece]) return {};  // asked for twice, since the link was lost in between
+  partial.pieces[piece] = true;
+  grow(partial.bytes, chunk.offset() + bytes.size(), partial.total);
   std::ranges::copy(bytes, partial.bytes.begin() + static_cast<std::ptrdiff_t>(chunk.offset()));
   partial.here += bytes.size();
   if (partial.here < partial.total) return {};
@@ -83,4 +97,4 @@ void AssetGatherer::ask_again() {
   for (auto& [hash, partial] : missing_) partial = {};
 }
 
-}  // namespace lfd::node
+}  // namespace lfd
