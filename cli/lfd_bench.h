@@ -12,5 +12,6 @@ namespace lfd {
 void end_bench_by_signal(int);
 
 void add_bench_ao(CLI::App& bench, int& exit_code);
+void add_bench_soak(CLI::App& bench, int& exit_code);
 
 }  // namespace lfd

@@ -47,7 +47,7 @@ Status Stage::check_together(const proto::RenderSettings& render, const RegionOf
   return check_radius(settings.ao, roi);
 }
 
-Result<proto::Update> Stage::show(LoadedScene scene) {
+Result<proto::Update> Stage::preview(const LoadedScene& scene) const {
   LFD_TRY(const RegionOfInterest roi, complete(wished_roi_, scene.data.scene));
   LFD_TRY_STATUS(check_together(render_, roi));
   const std::size_t bytes = scene.data.scene.ByteSizeLong() + display_bytes_;
@@ -55,11 +55,16 @@ Result<proto::Update> Stage::show(LoadedScene scene) {
     return Error(fmt::format("{} MiB of instances, materials and measured maps; nodes are sent at most {} MiB at once",
                              bytes >> 20, kMostStateBytes >> 20));
   }
-  roi_ = roi;
   proto::Update update;
   *update.mutable_scene() = scene.data.scene;
-  *update.mutable_roi() = write_roi(roi_);
+  *update.mutable_roi() = write_roi(roi);
   *update.mutable_render() = render_;
+  return update;
+}
+
+Result<proto::Update> Stage::show(LoadedScene scene) {
+  LFD_TRY(proto::Update update, preview(scene));
+  LFD_TRY(roi_, complete(wished_roi_, scene.data.scene));
   scene_ = std::move(scene);
   return store_.change(std::move(update));
 }

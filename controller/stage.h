@@ -27,6 +27,8 @@ class Stage {
   // Each changes the state and returns the update to publish; an error changes nothing. One of show(): the scene and
   // the display do not fit into one message.
   Result<proto::Update> show(LoadedScene scene);
+  // What show() would make of it now, without a number; nothing is changed.
+  Result<proto::Update> preview(const LoadedScene& scene) const;
   Result<proto::Update> set_roi(const proto::RegionOfInterest& wish);  // boxes left out follow from the scene's bounds
   Result<proto::Update> set_render(const proto::RenderSettings& render);
   Result<proto::Update> set_ao(const proto::AmbientOcclusion& ao);

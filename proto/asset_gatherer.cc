@@ -29,13 +29,18 @@ void grow(std::string& bytes, std::uint64_t size, std::uint64_t total) {
 
 }  // namespace
 
-void AssetGatherer::want(const proto::Scene& scene) {
-  const std::set<std::string> wanted = hashes_of(scene);
+void AssetGatherer::want(const proto::Scene& scene, const proto::Scene* next) {
+  std::set<std::string> wanted = hashes_of(scene);
+  if (next != nullptr) wanted.merge(hashes_of(*next));
   std::erase_if(assets_, [&](const auto& asset) { return !wanted.contains(asset.first); });
   std::erase_if(missing_, [&](const auto& partial) { return !wanted.contains(partial.first); });
   for (const auto& hash : wanted) {
     if (!assets_.contains(hash)) missing_.try_emplace(hash);
   }
+}
+
+bool AssetGatherer::has_all_of(const proto::Scene& scene) const {
+  return std::ranges::all_of(hashes_of(scene), [&](const std::string& hash) { return assets_.contains(hash); });
 }
 
 std::vector<proto::Want> AssetGatherer::next_requests() {

@@ -20,8 +20,11 @@ class AssetGatherer {
 
   explicit AssetGatherer(std::uint32_t piece_bytes) : piece_bytes_(piece_bytes) {}
 
-  // From now on exactly the assets of this scene are wanted; others are forgotten.
-  void want(const proto::Scene& scene);
+  // From now on exactly the assets of these scenes are wanted, `next` being one that is to come; others are forgotten.
+  void want(const proto::Scene& scene, const proto::Scene* next = nullptr);
+
+  // Every asset of this scene is here.
+  bool has_all_of(const proto::Scene& scene) const;
 
   // Everything wanted is here.
   bool complete() const { return missing_.empty(); }

@@ -81,9 +81,10 @@ Status Daemon::run(StopSignals& signals) {
     const Clock::time_point now = Clock::now();
     while (const auto message = links_.control.receive()) take_control(*message, now);
     while (const auto message = links_.bulk.receive()) {
-      if (stage_.has_scene()) serve_asset(links_.bulk, *message, stage_.assets());
+      if (stage_.has_scene()) serve_asset(links_.bulk, *message, *assets_for(message->envelope.want().hash()));
     }
     if (auto arrival = loader_.take()) first_scene = take_scene(*std::move(arrival), now);
+    settle_scene(now);
     if (!first_scene) end_ = "there is no scene to show";
     if (const auto signal = signals.take()) end_ = fmt::format("signal {}", *signal);
     tick(now);
@@ -121,6 +122,9 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
     case proto::Envelope::kReady:
       if (peer == nullptr) return;
       return take_ready(*peer, envelope.ready());
+    case proto::Envelope::kPrepared:
+      if (peer != nullptr) change_.prepared(peer->name, envelope.prepared().number(), envelope.prepared().error());
+      return;
     case proto::Envelope::kShown:
       if (peer != nullptr && peer->role == proto::DISPLAY) log_.shown(envelope.shown().frame(), now);
       return;
@@ -131,28 +135,6 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
       log::debug("control: a message that nobody sends to a controller");
       return;
   }
-}
-
-Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
-  Result<proto::Update> update =
-      arrival.scene ? stage_.show(*std::move(arrival.scene)) : Result<proto::Update>(arrival.scene.error());
-  if (update) {
-    log::info("scene: {} is shown", stage_.store().state().scene().name());
-    for (const std::string& warning : stage_.warnings()) log::warn("scene: {}", warning);
-    publish(*update);
-    if (!first_shown_) first_shown_ = now;
-    for (const Peer* peer : members_.peers()) {
-      if (peer->lives() && !peer->last_heard) welcome(*peer, now);
-    }
-  } else if (!arrival.asker.empty()) {
-    log::error("scene: {}", update.error().message());
-  }
-  if (!arrival.asker.empty()) {
-    reply(arrival.asker, arrival.request_id, update ? Status() : Status(update.error()));
-  } else if (!update) {
-    return update.error().within("scene");
-  }
-  return {};
 }
 
 void Daemon::tick(Clock::time_point now) {

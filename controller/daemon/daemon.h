@@ -15,6 +15,7 @@
 #include "controller/frame_log.h"
 #include "controller/membership.h"
 #include "controller/pacing.h"
+#include "controller/scene_change.h"
 #include "controller/shares.h"
 #include "controller/stage.h"
 
@@ -54,7 +55,6 @@ class Daemon {
 
   // daemon.cc: the loop
   void take_control(const wire::Message& message, Clock::time_point now);
-  Status take_scene(SceneArrival arrival, Clock::time_point now);
   void tick(Clock::time_point now);
   Clock::time_point wake_at() const;
   void publish(proto::Envelope envelope);
@@ -79,6 +79,13 @@ class Daemon {
   // Nobody comes any more who would draw the node's modules, or somebody is ready to.
   bool is_settled(const std::string& node, Clock::time_point now) const;
 
+  // daemon_scenes.cc: scenes as they come
+  Status take_scene(SceneArrival arrival, Clock::time_point now);
+  void settle_scene(Clock::time_point now);
+  void show_next_scene(Clock::time_point now);
+  void refuse_next_scene(const Error& why);
+  const Assets* assets_for(const std::string& hash) const;
+
   // daemon_frames.cc: the life of frames
   void advance(Clock::time_point now);
   bool may_begin(Clock::time_point now) const;
@@ -102,6 +109,8 @@ class Daemon {
   std::unique_ptr<wire::Context> context_;
   Links links_;
   SceneLoader loader_;
+  SceneChange change_;
+  std::optional<SceneArrival> next_scene_;  // while the change is pending
   Stage stage_;
   const std::uint64_t session_;  // of this life of the controller
   Assignment assignment_;        // as the deployment has it

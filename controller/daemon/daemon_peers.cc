@@ -19,6 +19,7 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   }
   if (!*joined) return log::debug("\"{}\" (process {}) comes under a name that may live", join.name(), join.process());
   const std::string& name = **joined;
+  change_.gone(name);
   barrier_.gone(name);  // whatever it drew before it joined anew is lost
   if (!asks_again) log::info("\"{}\" joins (process {})", name, join.process());
   const Peer& peer = *members_.find(name);
@@ -66,6 +67,7 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
 
 void Daemon::peer_is_gone(const std::string& name, const char* why) {
   log::warn("\"{}\" is out: {}", name, why);
+  change_.gone(name);
   barrier_.gone(name);
   late_.erase(name);
   if (members_.find(name)->role == proto::DISPLAY) publish_images_endpoint();

@@ -77,7 +77,7 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
 }
 
 Result<bool> Daemon::start_scene(const wire::Message& message) {
-  if (loader_.busy()) return Error("another scene is being loaded");
+  if (loader_.busy() || change_.is_pending()) return Error("another scene is being loaded");
   const proto::Request& request = message.envelope.request();
   loader_.start(std::filesystem::path(request.scene_file()), message.peer, request.id());
   return true;

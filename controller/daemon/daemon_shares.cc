@@ -24,9 +24,10 @@ void Daemon::settle_shares(Clock::time_point now) {
   if (!stage_.has_scene()) return;
   for (const std::string& spare : shares_.settle(presence(now))) {
     const std::vector<std::uint32_t>& modules = shares_.of(spare);
-    log::warn("\"{}\" takes over modules {} of \"{}\"", spare, module_ranges(std::vector<int>(modules.begin(), modules.end())),
-              shares_.stands_in_for(spare));
+    log::warn("\"{}\" takes over modules {} of \"{}\"", spare,
+              module_ranges(std::vector<int>(modules.begin(), modules.end())), shares_.stands_in_for(spare));
     members_.reassigned(spare);
+    change_.gone(spare);
     barrier_.gone(spare);  // it leaves what it may still be drawing
     const Peer& peer = *members_.find(spare);
     if (!peer.last_heard) continue;  // its welcome will say it

@@ -62,7 +62,10 @@ void Daemon::wait_for_something(const StopSignals& signals) const {
     if (*socket) sockets.push_back(&**socket);
   }
   std::vector<int> descriptors{signals.descriptor()};
-  if (drawing_) descriptors.push_back(drawing_->descriptor());
+  for (const RenderThread* thread :
+       {drawing_.get(), finishing_.get(), preparation_ ? preparation_->drawing.get() : nullptr}) {
+    if (thread != nullptr) descriptors.push_back(thread->descriptor());
+  }
   wire::wait(sockets, descriptors, kTick);
 }
 
@@ -122,6 +125,7 @@ Status Daemon::hear_control() {
       log::info("draws modules of another node from now on");
       LFD_TRY_STATUS(take_share(envelope.assign().share(), {modules.begin(), modules.end()}));
     }
+    if (envelope.has_prepare()) take_prepare(envelope.prepare());
     if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
     if (envelope.has_quit()) ended_ = true;
   }
@@ -165,16 +169,20 @@ Status Daemon::take_share(std::uint64_t share, std::vector<std::uint32_t> module
   states_.clear();
   retire_drawing();
   share_ = share;
+  modules_ = std::move(modules);
   drawing_started_ = false;
-  if (!modules.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *display_, std::move(modules));
+  if (!modules_.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *display_, modules_);
   return {};
 }
 
 // The loop never waits for a frame under way: its thread ends by itself and is taken away once it has.
 void Daemon::retire_drawing() {
   std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); });
-  if (drawing_ && !drawing_->stop_within({})) retired_.push_back(std::move(drawing_));
-  drawing_.reset();
+  forget_prepared();
+  for (auto* thread : {&drawing_, &finishing_}) {
+    if (*thread && !(*thread)->stop_within({})) retired_.push_back(std::move(*thread));
+    thread->reset();
+  }
 }
 
 bool Daemon::stop_drawing_within(Clock::duration patience) {
@@ -198,6 +206,10 @@ void Daemon::hear_state() {
     switch (envelope.body_case()) {
       case proto::Envelope::kUpdate:
         follower_.update_came(envelope.update());
+        if (envelope.update().prepared() != 0) {
+          prepared_shown_ = envelope.update().prepared();
+          prepared_sequence_ = envelope.update().sequence();
+        }
         if (envelope.update().has_images_endpoint()) use_images_endpoint(envelope.update().images_endpoint());
         follow_assets();
         break;
@@ -225,8 +237,8 @@ void Daemon::hear_state() {
 // Asks for what is missing; once all is here, the state can be drawn, and the controller hears its hash.
 void Daemon::follow_assets() {
   const auto& state = follower_.state();
-  if (!state || !state->has_scene() || state == ready_state_) return;
-  gatherer_.want(state->scene());
+  if (!state || !state->has_scene() || (state == ready_state_ && gatherer_.complete())) return;
+  gatherer_.want(state->scene(), preparation_ ? &preparation_->state->scene() : nullptr);
   for (const auto& want : gatherer_.next_requests()) {
     proto::Envelope request;
     *request.mutable_want() = want;
@@ -235,7 +247,7 @@ void Daemon::follow_assets() {
       break;
     }
   }
-  if (!gatherer_.complete()) return;
+  if (!gatherer_.has_all_of(state->scene())) return;
   ready_state_ = state;
   ready_assets_ = std::make_shared<const Assets>(gatherer_.assets());
   const std::string hash = state_hash(*state);
@@ -260,6 +272,7 @@ void Daemon::hear_bulk() {
   }
   // What is not found is not asked for again at once: news of the other scene is on its way.
   if (any_came) follow_assets();
+  build_prepared();
 }
 
 }  // namespace lfd::node

@@ -51,6 +51,14 @@ class Daemon {
     std::string hash;
   };
 
+  // A scene that is to come, and the thread that builds and draws it once for nobody.
+  struct Preparation {
+    std::uint64_t number = 0;
+    std::shared_ptr<const proto::State> state;
+    std::unique_ptr<RenderThread> drawing;
+    bool is_built = false;
+  };
+
   Daemon(DaemonOptions options, std::unique_ptr<wire::Context> context, wire::Socket control)
       : options_(std::move(options)), context_(std::move(context)), control_(std::move(control)) {}
 
@@ -69,11 +77,20 @@ class Daemon {
   void hear_bulk();
   void say(proto::Envelope envelope);
 
+  // daemon_scenes.cc: a scene that is to come is built beside the one that is shown
+  void take_prepare(const proto::Prepare& message);
+  void build_prepared();
+  void take_prepared_events();
+  void forget_prepared();
+  bool shows_prepared(const Begun& begun) const;
+  void switch_to_prepared();
+
   // daemon_frames.cc: frames and images
   bool draws(const proto::BeginFrame& begin) const;  // this node is named
   void begin_frames();
   bool is_overtaken(const Begun& begun) const;
   Status take_events();
+  Status take_events_of(RenderThread& thread);
   bool handed_on(const FrameEvent& event);
   std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
   void say_ready(std::uint64_t frame, proto::NodeReport report);
@@ -98,8 +115,14 @@ class Daemon {
   std::uint64_t session_ = 0;  // of the controller that welcomed it
   std::uint64_t share_ = 0;    // the number of what drawing_ draws
   std::optional<DisplayCalibration> display_;
+  std::vector<std::uint32_t> modules_;
   std::unique_ptr<RenderThread> drawing_;
-  bool drawing_started_ = false;  // its context is there
+  // The one before it, until its last frames are out: it drew another scene.
+  std::unique_ptr<RenderThread> finishing_;
+  std::optional<Preparation> preparation_;
+  std::uint64_t prepared_shown_ = 0;     // the number that the state's scene was prepared under; 0: it was not
+  std::uint64_t prepared_sequence_ = 0;  // of the update that shows it
+  bool drawing_started_ = false;         // its context is there
   // Of earlier welcomes, still in a frame that nobody waits for.
   std::vector<std::unique_ptr<RenderThread>> retired_;
   std::deque<Begun> begun_;

@@ -30,6 +30,7 @@ void Daemon::begin_frames() {
       report.set_error("a newer state came before the assets of the frame's own");
       say_ready(begin.frame(), std::move(report));
     } else {
+      if (shows_prepared(begun_.front())) switch_to_prepared();
       if (!drawing_->draw({begin.frame(), ready_state_, ready_assets_, begin.time_modules()})) return;
       states_[begin.frame()] = {ready_state_, ready_hash_};
     }
@@ -44,9 +45,21 @@ bool Daemon::is_overtaken(const Begun& begun) const {
 }
 
 Status Daemon::take_events() {
-  while (drawing_) {
-    auto event = drawing_->take();
-    if (!event) break;
+  std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); });
+  take_prepared_events();
+  if (finishing_) LFD_TRY_STATUS(take_events_of(*finishing_));
+  // Frames of the scene before come first.
+  if (finishing_ && finishing_->pending() == 0) {
+    if (!finishing_->stop_within({})) retired_.push_back(std::move(finishing_));
+    finishing_.reset();
+  }
+  if (drawing_ && !finishing_) LFD_TRY_STATUS(take_events_of(*drawing_));
+  hand_on_waiting();
+  return {};
+}
+
+Status Daemon::take_events_of(RenderThread& thread) {
+  while (auto event = thread.take()) {
     switch (event->kind) {
       case FrameEvent::Kind::kStarted:
         drawing_started_ = true;
@@ -66,7 +79,6 @@ Status Daemon::take_events() {
         break;
     }
   }
-  hand_on_waiting();
   return {};
 }
 

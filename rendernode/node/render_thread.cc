@@ -96,7 +96,6 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
 // A frame whose state cannot be drawn is ready without images; its report says why, and its modules keep what they
 // show.
 void RenderThread::begin(Renderer& renderer, DrawJob job) {
-  ++pending_;
   fault::at(fault::kDrawing, job.frame);
   FrameOptions options;
   options.buffers.bits = job.state->buffers();

@@ -43,7 +43,12 @@ class RenderThread {
   ~RenderThread();
 
   // False where too many jobs wait already.
-  bool draw(DrawJob job) { return jobs_.put(std::move(job)); }
+  bool draw(DrawJob job) {
+    ++pending_;
+    const bool fits = jobs_.put(std::move(job));
+    if (!fits) --pending_;
+    return fits;
+  }
 
   // Frames given in and not yet ready.
   int pending() const { return pending_; }

@@ -66,6 +66,10 @@ void PlayedNode::step() {
 void PlayedNode::take_control(const proto::Envelope& envelope) {
   if (envelope.has_refused()) refusal = envelope.refused().reason();
   if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
+  if (envelope.has_prepare()) {
+    prepare = envelope.prepare();
+    if (habits.prepares && prepare->has_update()) say_prepared("");
+  }
   if (envelope.has_assign()) {
     share_ = envelope.assign().share();
     assigned.assign(envelope.assign().modules().begin(), envelope.assign().modules().end());
@@ -111,6 +115,13 @@ void PlayedNode::answer(std::uint64_t frame) {
   ready.mutable_ready()->mutable_report()->set_error(habits.error);
   ready.mutable_ready()->mutable_report()->set_renderer(std::string(habits.report_bytes, 'x'));
   send(ready);
+}
+
+void PlayedNode::say_prepared(const std::string& error) {
+  proto::Envelope prepared;
+  prepared.mutable_prepared()->set_number(prepare->number());
+  prepared.mutable_prepared()->set_error(error);
+  send(prepared);
 }
 
 void PlayedNode::want_next_asset() {

@@ -26,6 +26,7 @@ class PlayedNode {
     std::uint64_t process = 1;
     bool beats = true;             // heartbeats
     bool draws = true;             // answers begin with drawn and ready
+    bool prepares = true;          // says at once that it has prepared a scene that is to come
     std::string error = {};        // with which it cannot draw; empty: it can
     std::size_t report_bytes = 0;  // its reports are at least so long
   };
@@ -45,6 +46,7 @@ class PlayedNode {
   std::map<std::string, std::string> assets;  // bytes by hash, complete ones only
   std::vector<std::uint64_t> begun;           // frames, in the order of their begins
   std::vector<std::uint64_t> named;           // those of them that it was named for
+  std::optional<proto::Prepare> prepare;      // the last one
   std::vector<std::uint32_t> assigned;        // the modules of its last Assign
   std::vector<proto::SwapFrame> swaps;
   bool quit = false;
@@ -52,6 +54,8 @@ class PlayedNode {
   std::string state_hash() const;  // empty while it does not hold all of the state
   bool holds_state() const { return !state_hash().empty(); }
   void leave();
+  // Answers the last Prepare.
+  void say_prepared(const std::string& error);
 
   // The sockets, for waiting.
   std::vector<const wire::Socket*> sockets() const;

@@ -68,11 +68,9 @@ fs::path Workbench::deployment(const std::string& more, const std::string& name)
                   more);
 }
 
-std::unique_ptr<Process> start_program(const std::string& program, std::vector<std::string> arguments,
-                                       std::map<std::string, std::string> environment) {
+std::unique_ptr<Process> start_program(const std::string& program, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), (fs::path(LFD_BIN_DIR) / program).string());
-  auto process = Process::start(
-      {.name = program, .command = std::move(arguments), .on_line = {}, .environment = std::move(environment)});
+  auto process = Process::start({.name = program, .command = std::move(arguments), .on_line = {}, .environment = {}});
   LFD_CHECK(process, process.error().message());
   return *std::move(process);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,9 +32,7 @@ class Workbench {
 };
 
 // Starts a program of the build by name; fails the test (and aborts it) where that is not possible.
-// `environment`: beside this process's own.
-std::unique_ptr<Process> start_program(const std::string& program, std::vector<std::string> arguments,
-                                       std::map<std::string, std::string> environment = {});
+std::unique_ptr<Process> start_program(const std::string& program, std::vector<std::string> arguments);
 
 // lfd-controller, and where it listens.
 struct RunningController {

@@ -1,10 +1,9 @@
 // Daemons by their names.
 #include "tests/system/fault_stage.h"
 
-#include <signal.h>
-
 #include <thread>
 
+#include "base/check.h"
 #include "base/file.h"
 #include "base/log.h"
 #include "proto/frame_files.h"
@@ -18,31 +17,25 @@ constexpr int kModules = 4;
 
 }  // namespace
 
-FaultStage::FaultStage(const std::string& more, std::string pacing) {
-  endpoint_ = fmt::format("tcp://127.0.0.1:{}", free_port());
-  const std::string addresses = fmt::format(
-      "sink: DISPLAY addresses {{ control: \"{}\" state: \"tcp://127.0.0.1:{}\" bulk: \"tcp://127.0.0.1:{}\" }} ",
-      endpoint_, free_port(), free_port());
-  deployment_ = bench_.deployment(addresses + pacing + more);
+FaultStage::FaultStage(const std::string& more, std::string pacing, const std::string& host) {
+  const auto address = [&host] { return fmt::format("tcp://{}:{}", host, free_port()); };
+  endpoint_ = address();
+  deployment_ = bench_.deployment(
+      fmt::format("sink: DISPLAY addresses {{ control: \"{}\" state: \"{}\" bulk: \"{}\" images: \"{}\" }} {} {}",
+                  endpoint_, address(), address(), address(), pacing, more));
+  daemons_.emplace(LFD_BIN_DIR, deployment_, shown());
 }
 
-Process& FaultStage::start(const std::string& name, Environment environment) {
-  if (daemons_.contains(name) && !daemons_[name]->poll()) kill(name);
+Process& FaultStage::start_as(const std::string& name, bench::Daemons::Start how) {
+  const auto started = daemons_->start(name, std::move(how));
+  LFD_CHECK(started, started.error().message());
   if (name == "controller") {
-    daemons_[name] = start_program("lfd-controller", {deployment_, "--log-level", "debug"}, std::move(environment));
-    EXPECT_TRUE(daemons_[name]->wait_for_line("control tcp", kClusterPatience));
-  } else if (name == "display") {
-    daemons_[name] = start_program("lfd-display", {deployment_, "--out", shown()}, std::move(environment));
-  } else {
-    daemons_[name] = start_program("lfd-rendernode", {deployment_, "--name", name}, std::move(environment));
+    EXPECT_TRUE((*started)->wait_for_line("control tcp", kClusterPatience));
   }
-  return *daemons_[name];
+  return **started;
 }
 
-void FaultStage::kill(const std::string& name) {
-  daemons_.at(name)->signal(SIGKILL);
-  EXPECT_TRUE(daemons_.at(name)->wait(kClusterPatience)) << name;
-}
+void FaultStage::kill(const std::string& name) { daemons_->kill(name); }
 
 std::uint64_t FaultStage::last_frame() const {
   const Result<proto::Status> status = status_at(endpoint_);
@@ -65,18 +58,23 @@ std::map<int, std::string> FaultStage::pictures_from(std::uint64_t frame) const 
   while (Clock::now() < deadline) {
     const std::uint64_t last = last_shown_frame().value_or(0);
     for (std::uint64_t at = frame; at < last; ++at) {
-      std::map<int, std::string> pictures;
-      for (int module = 0; module < kModules; ++module) {
-        const auto path = image_path(shown(), at, static_cast<std::uint32_t>(module), proto::COLOR);
-        if (!fs::exists(path)) break;
-        if (auto bytes = read_file(path)) pictures[module] = *std::move(bytes);
-      }
+      const std::map<int, std::string> pictures = pictures_of(at);
       if (pictures.size() == kModules) return pictures;
     }
     std::this_thread::sleep_for(kPause);
   }
   ADD_FAILURE() << "no whole frame is written from frame " << frame << " on";
   return {};
+}
+
+std::map<int, std::string> FaultStage::pictures_of(std::uint64_t frame) const {
+  std::map<int, std::string> pictures;
+  for (int module = 0; module < kModules; ++module) {
+    const auto path = image_path(shown(), frame, static_cast<std::uint32_t>(module), proto::COLOR);
+    if (!fs::exists(path)) break;
+    if (auto bytes = read_file(path)) pictures[module] = *std::move(bytes);
+  }
+  return pictures;
 }
 
 std::optional<std::uint64_t> FaultStage::last_shown_frame() const {

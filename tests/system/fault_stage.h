@@ -5,9 +5,9 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
+#include "bench/common/daemons.h"
 #include "tests/system/running_cluster.h"
 
 namespace lfd::harness {
@@ -18,13 +18,17 @@ class FaultStage {
 
   // `more`: of the deployment, beside addresses, sink and pacing (20 frames a second, heartbeats of 100 ms: a node that
   // is silent for 0.6 s is out).
-  explicit FaultStage(const std::string& more, std::string pacing = kPacing);
+  // `host`: where the controller and the display are reached.
+  explicit FaultStage(const std::string& more, std::string pacing = kPacing, const std::string& host = "127.0.0.1");
 
   static constexpr const char* kPacing = "pacing { frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 }";
 
   // Starts a daemon: "controller", "display", or a node by its name. One that runs under the name is killed.
-  Process& start(const std::string& name, Environment environment = {});
-  Process& operator[](const std::string& name) { return *daemons_.at(name); }
+  Process& start_as(const std::string& name, bench::Daemons::Start how);
+  Process& start(const std::string& name, std::map<std::string, std::string> environment = {}) {
+    return start_as(name, {.environment = std::move(environment)});
+  }
+  Process& operator[](const std::string& name) { return daemons_->at(name); }
   // SIGKILL, and waits for the end.
   void kill(const std::string& name);
 
@@ -41,6 +45,9 @@ class FaultStage {
   // has a successor: it is written whole.
   std::map<int, std::string> pictures_from(std::uint64_t frame) const;
 
+  // Of this frame alone, as far as they are there.
+  std::map<int, std::string> pictures_of(std::uint64_t frame) const;
+
   // The last frame of which the display has written anything.
   std::optional<std::uint64_t> last_shown_frame() const;
   // Waits until the display has written a frame later than this one.
@@ -50,7 +57,7 @@ class FaultStage {
   Workbench bench_{ImageSize{64, 48}};
   std::string endpoint_;
   std::filesystem::path deployment_;
-  std::map<std::string, std::unique_ptr<Process>> daemons_;
+  std::optional<bench::Daemons> daemons_;
 };
 
 }  // namespace lfd::harness

@@ -30,7 +30,7 @@ class NodeInstants : public testing::Test {
   std::vector<std::string> lines_of_controller_about(const std::string& text) {
     std::vector<std::string> lines = stage_["controller"].lines();
     std::erase_if(lines, [&](const std::string& line) {
-      return line.find(text) == std::string::npos || line.find("debug") != std::string::npos;
+      return line.find(text) == std::string::npos || line.find(" D [") != std::string::npos;
     });
     return lines;
   }

@@ -1,0 +1,196 @@
+// Files, processes and looking.
+#include "bench/soak/soak_cluster.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "calibration/make.h"
+#include "proto/calibration_file.h"
+#include "proto/frame_files.h"
+#include "proto/pictures/png.h"
+
+namespace lfd::bench {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+constexpr int kModules = 8;
+constexpr ImageSize kImage{64, 48};
+constexpr auto kChangePause = 150ms, kLookPause = 100ms, kTick = 10ms;
+constexpr auto kAnswerPatience = 300ms;     // the controller may be stopped
+constexpr std::uint64_t kFramesInHand = 4;  // of a display's writers, and one more
+
+// A port of the loopback interface that is free at the moment.
+int free_port() {
+  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
+  socklen_t length = sizeof address;
+  const bool bound = ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), length) == 0 &&
+                     ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &length) == 0;
+  ::close(descriptor);
+  LFD_CHECK(bound, "a port of the loopback interface is free");
+  return ::ntohs(address.sin_port);
+}
+
+std::string address() { return fmt::format("tcp://127.0.0.1:{}", free_port()); }
+
+}  // namespace
+
+Status SoakCluster::write_files() {
+  LFD_TRY(DisplayCalibration display, make_display("desk", kModules));
+  display.image = kImage;
+  LFD_TRY_STATUS(save_calibration(folder_.path() / "display.textproto", display));
+  control_ = address();
+  state_ = address();
+  // Heartbeats of 100 ms: a process that is silent for 0.6 s is out.
+  return write_file(
+      folder_.path() / "soak.textproto",
+      fmt::format(
+          "name: \"soak\" display: \"display.textproto\" scene {{ made {{ name: \"ribbed-shell\" seed: 1 }} }}\n"
+          "node {{ name: \"left\" }} node {{ name: \"right\" }} node {{ name: \"reserve\" spare: true }}\n"
+          "pacing {{ frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 }} sink: DISPLAY\n"
+          "addresses {{ control: \"{}\" state: \"{}\" bulk: \"{}\" images: \"{}\" }}\n",
+          control_, state_, address(), address()));
+}
+
+Result<std::unique_ptr<SoakCluster>> SoakCluster::start(StopSignals& signals) {
+  auto cluster = std::unique_ptr<SoakCluster>(new SoakCluster(signals));
+  LFD_TRY_STATUS(cluster->write_files());
+  cluster->daemons_ = std::make_unique<Daemons>(own_folder(), cluster->folder_.path() / "soak.textproto",
+                                                cluster->folder_.path() / "shown");
+  LFD_TRY(cluster->listener_, Listener::open(cluster->state_));
+  LFD_TRY(ControlClient client, ControlClient::connect(cluster->control_));
+  cluster->client_ = std::make_unique<ControlClient>(std::move(client));
+  for (const char* const name : {"controller", "display", "left", "right", "reserve"})
+    LFD_TRY_STATUS(cluster->daemons_->start(name));
+  return cluster;
+}
+
+std::optional<proto::Status> SoakCluster::status() {
+  proto::Request request;
+  request.mutable_status();
+  const auto reply = client_->ask(request, kAnswerPatience);
+  if (!reply) return std::nullopt;
+  late_now_ = std::max(late_now_, reply->status().late_frames());
+  counts.late_frames = late_before_ + late_now_;
+  return reply->status();
+}
+
+bool SoakCluster::is_whole() {
+  const auto now = status();
+  if (!now || now->stale_modules() > 0) return false;
+  const bool all_ready = std::ranges::all_of(now->peer(), [&](const proto::PeerStatus& peer) {
+    const bool holds = peer.role() != proto::NODE || peer.state_hash() == now->state_hash() || peer.module_size() == 0;
+    if (static_cast<int>(peer.process()) != daemons_->at(peer.name()).id()) return false;  // that one has gone
+    return peer.state() == "ready" || (peer.state() == "late" && holds);
+  });
+  return all_ready && now->peer_size() == 4;
+}
+
+Status SoakCluster::look_for(Clock::duration time) {
+  LFD_TRY([[maybe_unused]] const bool never, look_until([] { return false; }, time));
+  return {};
+}
+
+Result<bool> SoakCluster::look_until(const std::function<bool()>& done, Clock::duration at_most) {
+  const auto deadline = Clock::now() + at_most;
+  while (true) {
+    if (signals_.take()) return Error("ended by a signal");
+    hear();
+    change_state();
+    look_at_frames();
+    if (done()) return true;
+    if (Clock::now() >= deadline) return false;
+    pollfd signal{.fd = signals_.descriptor(), .events = POLLIN, .revents = 0};
+    ::poll(&signal, 1, static_cast<int>(kTick.count()));
+  }
+}
+
+void SoakCluster::expect_frames(bool expected) {
+  frames_expected_ = expected;
+  last_swap_.reset();
+}
+
+void SoakCluster::hear() {
+  const auto on_session = [this] {
+    checker_.restarted();
+    late_before_ += late_now_;
+    late_now_ = 0;
+    last_swap_.reset();
+  };
+  listener_->hear(on_session, [this](const proto::Envelope& envelope) {
+    if (envelope.has_update() && envelope.update().has_render())
+      checker_.background(envelope.update().sequence(), envelope.update().render().background());
+    if (envelope.has_begin()) checker_.begun(envelope.begin().frame(), envelope.begin().sequence());
+    if (!envelope.has_swap()) return;
+    const auto& stale = envelope.swap().stale_modules();
+    checker_.swapped(envelope.swap().frame(), {stale.begin(), stale.end()});
+    const auto now = Clock::now();
+    if (frames_expected_ && last_swap_) {
+      const double pause_s = milliseconds(now - *last_swap_) / 1000;
+      counts.longest_pause_s = std::max(counts.longest_pause_s, pause_s);
+    }
+    last_swap_ = now;
+  });
+}
+
+void SoakCluster::change_state() {
+  if (Clock::now() < next_change_) return;
+  next_change_ = Clock::now() + kChangePause;
+  const auto now = status();
+  if (!now) return;
+  proto::Request request;
+  *request.mutable_render() = now->render();
+  *request.mutable_render()->mutable_background() = background_of(++painted_);
+  if (const auto reply = client_->ask(request, kAnswerPatience); !reply) log::debug("{}", reply.error().message());
+}
+
+void SoakCluster::look_at_frames() {
+  if (Clock::now() < next_look_) return;
+  next_look_ = Clock::now() + kLookPause;
+  std::set<std::uint64_t> frames;
+  std::error_code failure;
+  for (fs::directory_iterator entry(daemons_->shown(), failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with("frame-")) frames.insert(std::stoull(name.substr(6)));
+  }
+  const std::uint64_t last_swapped = last_frame();
+  for (const std::uint64_t frame : frames) {
+    if (frame > last_swapped + kFramesInHand) {  // of another life of the controller
+      fs::remove_all(frame_path(daemons_->shown(), frame), failure);
+    } else if (frames.upper_bound(frame + kFramesInHand - 1) != frames.end() &&
+               *frames.rbegin() <= last_swapped + kFramesInHand) {
+      look_at_frame(frame);
+      fs::remove_all(frame_path(daemons_->shown(), frame), failure);
+    }
+  }
+}
+
+void SoakCluster::look_at_frame(std::uint64_t frame) {
+  std::map<std::uint32_t, Rgb8> seen;
+  for (std::uint32_t module = 0; module < kModules; ++module) {
+    const auto path = image_path(daemons_->shown(), frame, module, proto::COLOR);
+    if (!fs::exists(path)) continue;
+    const auto picture = read_png(path);
+    if (picture) seen[module] = {picture->rgba[0], picture->rgba[1], picture->rgba[2]};
+  }
+  const auto verdict = checker_.judge(frame, seen);
+  if (!verdict) return;
+  ++counts.shown_frames;
+  counts.judged_modules += static_cast<std::uint64_t>(verdict->fresh);
+  if (verdict->fresh < kModules) ++counts.stale_frames;
+  if (verdict->wrong > 0) ++counts.mixed_frames;
+}
+
+}  // namespace lfd::bench

@@ -1,0 +1,66 @@
+// The cluster of a soak: its processes, its controller's answers, what it shows; kept going by look().
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base/clock.h"
+#include "base/signals.h"
+#include "base/temporary_folder.h"
+#include "bench/common/daemons.h"
+#include "bench/soak/frame_checker.h"
+#include "bench/soak/listener.h"
+#include "bench/soak/soak.h"
+#include "cli/control_client.h"
+
+namespace lfd::bench {
+
+// Nodes "left" and "right" draw eight modules, "reserve" is a spare.
+class SoakCluster {
+ public:
+  static Result<std::unique_ptr<SoakCluster>> start(StopSignals& signals);
+
+  Daemons& daemons() { return *daemons_; }
+
+  // Waits; meanwhile the state changes several times a second, and what is shown is looked at. An error: a signal came.
+  Status look_for(Clock::duration time);
+  // Until `done`; whether it was in time.
+  Result<bool> look_until(const std::function<bool()>& done, Clock::duration at_most);
+
+  // All draw the controller's state and frames are shown.
+  bool is_whole();
+  std::optional<proto::Status> status();
+  std::uint64_t last_frame() const { return checker_.last_swapped().value_or(0); }
+
+  // While this is false, frames may pause: the controller or the display is not there.
+  void expect_frames(bool expected);
+
+  // Counts so far.
+  SoakTable counts;
+
+ private:
+  explicit SoakCluster(StopSignals& signals) : signals_(signals) {}
+  Status write_files();
+  void hear();
+  void change_state();
+  void look_at_frames();
+  void look_at_frame(std::uint64_t frame);
+
+  StopSignals& signals_;
+  TemporaryFolder folder_{"lfd-soak"};
+  std::string control_, state_;
+  std::unique_ptr<Daemons> daemons_;
+  std::unique_ptr<ControlClient> client_;
+  std::unique_ptr<Listener> listener_;
+  FrameChecker checker_;
+  std::uint64_t painted_ = 0, late_before_ = 0, late_now_ = 0;
+  std::uint64_t whole_at_frame_ = 0;
+  bool frames_expected_ = false;
+  std::optional<Clock::time_point> last_swap_;
+  Clock::time_point next_change_{}, next_look_{};
+};
+
+}  // namespace lfd::bench

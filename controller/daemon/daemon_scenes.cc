@@ -1,0 +1,79 @@
+// Scenes as they come: the first is shown at once, a later one when all nodes that draw have prepared it.
+#include "base/log.h"
+#include "controller/daemon/daemon.h"
+
+namespace lfd::controller {
+
+const Assets* Daemon::assets_for(const std::string& hash) const {
+  const bool is_next = next_scene_ && next_scene_->scene && next_scene_->scene->data.assets.contains(hash);
+  return is_next ? &next_scene_->scene->data.assets : &stage_.assets();
+}
+
+Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
+  Result<proto::Update> update =
+      arrival.scene ? stage_.preview(*arrival.scene) : Result<proto::Update>(arrival.scene.error());
+  if (!update && arrival.asker.empty()) return update.error().within("scene");
+  if (!update) {
+    log::error("scene: {}", update.error().message());
+    reply(arrival.asker, arrival.request_id, update.error());
+    return {};
+  }
+  // Those that draw, or are about to; others take the scene when they come.
+  std::vector<std::string> nodes;
+  for (const Peer* peer : members_.peers()) {
+    if (peer->role == proto::NODE && peer->phase == Phase::kReady && stage_.has_scene()) nodes.push_back(peer->name);
+  }
+  proto::Envelope envelope;
+  envelope.mutable_prepare()->set_number(change_.start(nodes));
+  *envelope.mutable_prepare()->mutable_update() = *std::move(update);
+  next_scene_ = std::move(arrival);
+  for (const std::string& node : nodes) send(members_.find(node)->address, envelope);
+  if (!nodes.empty()) log::info("scene: {} nodes prepare it; the old one is shown until then", nodes.size());
+  settle_scene(now);
+  return {};
+}
+
+void Daemon::settle_scene(Clock::time_point now) {
+  if (!change_.is_pending()) return;
+  switch (change_.verdict()) {
+    case SceneChange::Verdict::kWait:
+      return;
+    case SceneChange::Verdict::kShow:
+      return show_next_scene(now);
+    case SceneChange::Verdict::kRefuse:
+      return refuse_next_scene(Error(change_.error()));
+  }
+}
+
+void Daemon::show_next_scene(Clock::time_point now) {
+  SceneArrival next = *std::exchange(next_scene_, std::nullopt);
+  Result<proto::Update> update = stage_.show(*std::move(next.scene));
+  if (!update) {  // settings that do not fit it have come in between
+    next_scene_ = std::move(next);
+    return refuse_next_scene(update.error());
+  }
+  update->set_prepared(change_.number());
+  change_.finish();
+  log::info("scene: {} is shown", stage_.store().state().scene().name());
+  for (const std::string& warning : stage_.warnings()) log::warn("scene: {}", warning);
+  publish(*update);
+  if (!first_shown_) first_shown_ = now;
+  for (const Peer* peer : members_.peers()) {
+    if (peer->lives() && !peer->last_heard) welcome(*peer, now);
+  }
+  if (!next.asker.empty()) reply(next.asker, next.request_id, {});
+}
+
+void Daemon::refuse_next_scene(const Error& why) {
+  const SceneArrival next = *std::exchange(next_scene_, std::nullopt);
+  change_.finish();
+  log::error("scene: {}; the old one stays", why.message());
+  proto::Envelope envelope;
+  envelope.mutable_prepare()->set_number(change_.number());
+  for (const Peer* peer : members_.peers()) {
+    if (peer->role == proto::NODE && peer->lives() && peer->last_heard) send(peer->address, envelope);
+  }
+  if (!next.asker.empty()) reply(next.asker, next.request_id, why);
+}
+
+}  // namespace lfd::controller

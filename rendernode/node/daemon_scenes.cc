@@ -1,0 +1,73 @@
+// A scene that is to come: its assets are gathered and a second thread builds it while the first goes on drawing.
+#include "base/log.h"
+#include "proto/state.h"
+#include "rendernode/node/daemon.h"
+
+namespace lfd::node {
+
+void Daemon::take_prepare(const proto::Prepare& message) {
+  forget_prepared();
+  if (!message.has_update() || !follower_.state()) return follow_assets();
+  auto state = std::make_shared<proto::State>(*follower_.state());
+  *state->mutable_scene() = message.update().scene();
+  *state->mutable_roi() = message.update().roi();
+  *state->mutable_render() = message.update().render();
+  preparation_ =
+      Preparation{.number = message.number(), .state = std::move(state), .drawing = nullptr, .is_built = false};
+  log::info("prepares scene {}", message.update().scene().name());
+  follow_assets();
+  gatherer_.want(follower_.state()->scene(), &preparation_->state->scene());
+  build_prepared();
+}
+
+// Once its assets are here.
+void Daemon::build_prepared() {
+  if (!preparation_ || preparation_->drawing || preparation_->is_built) return;
+  if (!gatherer_.has_all_of(preparation_->state->scene())) return;
+  if (modules_.empty()) {
+    preparation_->is_built = true;
+    proto::Envelope nothing_to_build;
+    nothing_to_build.mutable_prepared()->set_number(preparation_->number);
+    return say(nothing_to_build);
+  }
+  preparation_->drawing = std::make_unique<RenderThread>(options_.gpu, *display_, modules_);
+  DrawJob job;
+  job.state = preparation_->state;
+  job.assets = std::make_shared<const Assets>(gatherer_.assets());
+  preparation_->drawing->draw(std::move(job));
+}
+
+void Daemon::take_prepared_events() {
+  while (preparation_ && preparation_->drawing) {
+    const auto event = preparation_->drawing->take();
+    if (!event) return;
+    const bool failed = event->kind == FrameEvent::Kind::kFailed;
+    if (!failed && event->kind != FrameEvent::Kind::kReady) continue;
+    proto::Envelope prepared;
+    prepared.mutable_prepared()->set_number(preparation_->number);
+    prepared.mutable_prepared()->set_error(failed ? event->error : event->result->report.error());
+    preparation_->is_built = prepared.prepared().error().empty();
+    if (!preparation_->is_built) log::warn("the scene cannot be drawn here: {}", prepared.prepared().error());
+    say(prepared);
+    if (!preparation_->is_built) return forget_prepared();
+  }
+}
+
+void Daemon::forget_prepared() {
+  if (preparation_ && preparation_->drawing && !preparation_->drawing->stop_within({}))
+    retired_.push_back(std::move(preparation_->drawing));
+  preparation_.reset();
+}
+
+bool Daemon::shows_prepared(const Begun& begun) const {
+  return preparation_ && preparation_->is_built && preparation_->drawing && preparation_->number == prepared_shown_ &&
+         begun.begin.sequence() >= prepared_sequence_;
+}
+
+void Daemon::switch_to_prepared() {
+  if (finishing_ && !finishing_->stop_within({})) retired_.push_back(std::move(finishing_));
+  finishing_ = std::exchange(drawing_, std::move(preparation_->drawing));
+  preparation_.reset();
+}
+
+}  // namespace lfd::node
