@@ -110,6 +110,8 @@ Status carry_out(Fault fault, SoakCluster& cluster, FaultChoice& choice) {
       std::filesystem::remove_all(cluster.daemons().shown(), busy);
       return {};
     }
+    case Fault::kChangeScene:
+      return cluster.change_scene();
     case Fault::kKillOtherNode:
       return run.kill_for_a_while({"left"});
     case Fault::kKillDisplay:

@@ -7,7 +7,7 @@ namespace lfd::bench {
 namespace {
 
 constexpr int kKinds = static_cast<int>(Fault::kKillController) + 1;
-constexpr Fault kLastGentle = Fault::kRemoveFolder;
+constexpr Fault kLastGentle = Fault::kChangeScene;
 
 }  // namespace
 
@@ -37,6 +37,8 @@ const char* name_of(Fault fault) {
       return "controller stopped";
     case Fault::kRemoveFolder:
       return "folder of pictures removed";
+    case Fault::kChangeScene:
+      return "scene changed";
     case Fault::kKillOtherNode:
       return "other node killed";
     case Fault::kKillDisplay:

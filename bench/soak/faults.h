@@ -22,6 +22,7 @@ enum class Fault {
   kStopDisplay,
   kStopController,
   kRemoveFolder,  // that the display writes to
+  kChangeScene,   // no fault, but nothing may come of it
   // After these the others are new.
   kKillOtherNode,
   kKillDisplay,

@@ -12,6 +12,8 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "calibration/make.h"
+#include "controller/scene/made/made_scenes.h"
+#include "controller/scene/scene_file.h"
 #include "proto/calibration_file.h"
 #include "proto/frame_files.h"
 #include "proto/pictures/png.h"
@@ -25,7 +27,8 @@ namespace fs = std::filesystem;
 constexpr int kModules = 8;
 constexpr ImageSize kImage{64, 48};
 constexpr auto kChangePause = 150ms, kLookPause = 100ms, kTick = 10ms;
-constexpr auto kAnswerPatience = 300ms;     // the controller may be stopped
+constexpr auto kAnswerPatience = 300ms;  // the controller may be stopped
+constexpr auto kScenePatience = 30s;
 constexpr std::uint64_t kFramesInHand = 4;  // of a display's writers, and one more
 
 // A port of the loopback interface that is free at the moment.
@@ -50,6 +53,10 @@ Status SoakCluster::write_files() {
   LFD_TRY(DisplayCalibration display, make_display("desk", kModules));
   display.image = kImage;
   LFD_TRY_STATUS(save_calibration(folder_.path() / "display.textproto", display));
+  for (const auto& [file, seed] : {std::pair{"first.glb", 1u}, std::pair{"other.glb", 2u}}) {
+    LFD_TRY(const LoadedScene scene, scene::make_scene("ribbed-shell", seed));
+    LFD_TRY_STATUS(scene::write_glb(folder_.path() / file, scene.data));
+  }
   control_ = address();
   state_ = address();
   // Heartbeats of 100 ms: a process that is silent for 0.6 s is out.
@@ -84,6 +91,14 @@ std::optional<proto::Status> SoakCluster::status() {
   late_now_ = std::max(late_now_, reply->status().late_frames());
   counts.late_frames = late_before_ + late_now_;
   return reply->status();
+}
+
+Status SoakCluster::change_scene() {
+  other_scene_ = !other_scene_;
+  proto::Request request;
+  request.set_scene_file(folder_.path() / (other_scene_ ? "other.glb" : "first.glb"));
+  LFD_TRY(const proto::Reply reply, client_->ask(request, kScenePatience));
+  return reply.error().empty() ? Status() : Status(Error(reply.error()));
 }
 
 bool SoakCluster::is_whole() {

@@ -30,6 +30,9 @@ class SoakCluster {
   // Until `done`; whether it was in time.
   Result<bool> look_until(const std::function<bool()>& done, Clock::duration at_most);
 
+  // Asks for the other one of two scenes.
+  Status change_scene();
+
   // All draw the controller's state and frames are shown.
   bool is_whole();
   std::optional<proto::Status> status();
@@ -56,6 +59,7 @@ class SoakCluster {
   std::unique_ptr<ControlClient> client_;
   std::unique_ptr<Listener> listener_;
   FrameChecker checker_;
+  bool other_scene_ = false;
   std::uint64_t painted_ = 0, late_before_ = 0, late_now_ = 0;
   std::uint64_t whole_at_frame_ = 0;
   bool frames_expected_ = false;

@@ -123,7 +123,7 @@ Status Daemon::hear_control() {
     if (envelope.has_assign()) {
       const auto& modules = envelope.assign().modules();
       log::info("draws modules of another node from now on");
-      LFD_TRY_STATUS(take_share(envelope.assign().share(), {modules.begin(), modules.end()}));
+      LFD_TRY_STATUS(take_share(envelope.assign().share(), *display_, {modules.begin(), modules.end()}));
     }
     if (envelope.has_prepare()) take_prepare(envelope.prepare());
     if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
@@ -137,7 +137,6 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   LFD_TRY(bulk_, wire::connect_dealer(*context_, message.bulk_endpoint(), wire::kChunks));
   auto display = read_calibration(message.display());
   if (!display) return display.error().within("the controller's display");
-  display_ = *std::move(display);
   session_ = session;
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
   may_drop_ = message.may_drop();
@@ -146,7 +145,7 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
   outbox_ = {};
   gatherer_.ask_again();
-  LFD_TRY_STATUS(take_share(message.share(), {message.modules().begin(), message.modules().end()}));
+  LFD_TRY_STATUS(take_share(message.share(), *display, {message.modules().begin(), message.modules().end()}));
   follower_ = {};
   take_snapshot(message.snapshot());
   images_endpoint_.clear();  // greet it anew, wherever it is
@@ -157,18 +156,22 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   return {};
 }
 
-Status Daemon::take_share(std::uint64_t share, std::vector<std::uint32_t> modules) {
+Status Daemon::take_share(std::uint64_t share, const DisplayCalibration& display, std::vector<std::uint32_t> modules) {
   for (const auto k : modules) {
-    if (k >= display_->modules.size())
-      return Error(fmt::format("the controller gives module {} of {}", k, display_->modules.size()));
+    if (k >= display.modules.size())
+      return Error(fmt::format("the controller gives module {} of {}", k, display.modules.size()));
   }
   if (modules.size() > MODULES_PER_NODE)
     return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
   begun_.clear();
   waiting_.clear();
   states_.clear();
-  retire_drawing();
   share_ = share;
+  ++epoch_;
+  forget_prepared();
+  if (drawing_ && !finishing_ && modules == modules_ && display == *display_) return {};
+  retire_drawing();
+  display_ = display;
   modules_ = std::move(modules);
   drawing_started_ = false;
   if (!modules_.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *display_, modules_);

@@ -67,8 +67,9 @@ class Daemon {
   void join_or_beat(Clock::time_point now);
   Status hear_control();
   Status welcome(const proto::Welcome& message, std::uint64_t session);
-  // These are its modules from now on; what it drew of others ends.
-  Status take_share(std::uint64_t share, std::vector<std::uint32_t> modules);
+  // These are its modules from now on; what it drew of others ends. The thread that draws them stays where it draws the
+  // very same.
+  Status take_share(std::uint64_t share, const DisplayCalibration& display, std::vector<std::uint32_t> modules);
   bool can_draw() const { return !drawing_ || drawing_started_; }
   void retire_drawing();
   void hear_state();
@@ -114,6 +115,7 @@ class Daemon {
 
   std::uint64_t session_ = 0;  // of the controller that welcomed it
   std::uint64_t share_ = 0;    // the number of what drawing_ draws
+  std::uint64_t epoch_ = 0;    // how often it was given a share: frames of before are of no use
   std::optional<DisplayCalibration> display_;
   std::vector<std::uint32_t> modules_;
   std::unique_ptr<RenderThread> drawing_;

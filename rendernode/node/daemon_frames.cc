@@ -1,4 +1,6 @@
 // Frames through the node: begin, drawn, ready, and the images on their way.
+#include <malloc.h>
+
 #include <algorithm>
 
 #include "base/fault.h"
@@ -13,6 +15,9 @@ using namespace std::chrono_literals;
 
 constexpr auto kHelloPause = 300ms;
 constexpr std::size_t kMostBegun = 8;
+
+// What a thread with a GL context leaves behind when it ends is free, but glibc would keep it.
+void give_memory_back() { ::malloc_trim(0); }
 
 }  // namespace
 
@@ -31,7 +36,7 @@ void Daemon::begin_frames() {
       say_ready(begin.frame(), std::move(report));
     } else {
       if (shows_prepared(begun_.front())) switch_to_prepared();
-      if (!drawing_->draw({begin.frame(), ready_state_, ready_assets_, begin.time_modules()})) return;
+      if (!drawing_->draw({begin.frame(), epoch_, ready_state_, ready_assets_, begin.time_modules()})) return;
       states_[begin.frame()] = {ready_state_, ready_hash_};
     }
     begun_.pop_front();
@@ -45,7 +50,7 @@ bool Daemon::is_overtaken(const Begun& begun) const {
 }
 
 Status Daemon::take_events() {
-  std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); });
+  if (std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); }) > 0) give_memory_back();
   take_prepared_events();
   if (finishing_) LFD_TRY_STATUS(take_events_of(*finishing_));
   // Frames of the scene before come first.
@@ -60,6 +65,8 @@ Status Daemon::take_events() {
 
 Status Daemon::take_events_of(RenderThread& thread) {
   while (auto event = thread.take()) {
+    const bool is_of_a_frame = event->kind == FrameEvent::Kind::kDrawn || event->kind == FrameEvent::Kind::kReady;
+    if (is_of_a_frame && event->epoch != epoch_) continue;
     switch (event->kind) {
       case FrameEvent::Kind::kStarted:
         drawing_started_ = true;

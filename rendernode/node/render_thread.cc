@@ -54,7 +54,11 @@ void RenderThread::run(int gpu, const DisplayCalibration& display, const std::ve
     if (draw_with_a_context(gpu, display, modules) != End::kLost) break;
     give_up_frames("the GL context was lost");
     if (++lost_in_a_row_ <= kMostLosses) continue;
-    say({FrameEvent::Kind::kFailed, 0, {}, fmt::format("the GL context was lost {} times in a row", lost_in_a_row_)});
+    say({FrameEvent::Kind::kFailed,
+         0,
+         0,
+         {},
+         fmt::format("the GL context was lost {} times in a row", lost_in_a_row_)});
     break;
   }
   ended_ = true;
@@ -64,12 +68,12 @@ RenderThread::End RenderThread::draw_with_a_context(int gpu, const DisplayCalibr
                                                     const std::vector<std::uint32_t>& modules) {
   auto context = gl::Context::create(gpu);
   if (!context) {
-    say({FrameEvent::Kind::kFailed, 0, {}, context.error().message()});
+    say({FrameEvent::Kind::kFailed, 0, 0, {}, context.error().message()});
     return End::kFailed;
   }
   log::info("draws {} modules with {}", modules.size(), (*context)->description());
   Renderer renderer(**context, display, modules);
-  say({FrameEvent::Kind::kStarted, 0, {}, {}});
+  say({FrameEvent::Kind::kStarted, 0, 0, {}, {}});
   return loop(**context, renderer);
 }
 
@@ -85,7 +89,7 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
     if (!renderer.finished(20ms) && !context.is_lost()) continue;
     if (context.is_lost()) return End::kLost;
     if (fault::slowdown() > 1) std::this_thread::sleep_for((fault::slowdown() - 1) * (Clock::now() - oldest.begun));
-    say({FrameEvent::Kind::kDrawn, oldest.frame, {}, {}});
+    say({FrameEvent::Kind::kDrawn, oldest.frame, oldest.epoch, {}, {}});
     if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, std::move(*job));
     finish(renderer);
     lost_in_a_row_ = 0;
@@ -105,30 +109,30 @@ void RenderThread::begin(Renderer& renderer, DrawJob job) {
   Status drawn = renderer.set_state(*job.state, *job.assets);
   if (drawn) drawn = renderer.draw(options);
   if (drawn) {
-    under_way_.push_back({job.frame, begun});
+    under_way_.push_back({job.frame, job.epoch, begun});
     return;
   }
-  say_undrawn(job.frame, drawn.error().message());
+  say_undrawn(job.frame, job.epoch, drawn.error().message());
 }
 
-void RenderThread::say_undrawn(std::uint64_t frame, const std::string& why) {
+void RenderThread::say_undrawn(std::uint64_t frame, std::uint64_t epoch, const std::string& why) {
   log::error("frame {}: {}", frame, why);
   FrameResult nothing;
   nothing.report.set_error(why);
-  say({FrameEvent::Kind::kDrawn, frame, {}, {}});
-  say({FrameEvent::Kind::kReady, frame, std::move(nothing), {}});
+  say({FrameEvent::Kind::kDrawn, frame, epoch, {}, {}});
+  say({FrameEvent::Kind::kReady, frame, epoch, std::move(nothing), {}});
 }
 
 void RenderThread::give_up_frames(const std::string& why) {
-  for (const UnderWay& frame : under_way_) say_undrawn(frame.frame, why);
+  for (const UnderWay& frame : under_way_) say_undrawn(frame.frame, frame.epoch, why);
   under_way_.clear();
 }
 
 void RenderThread::finish(Renderer& renderer) {
   FrameResult result = renderer.collect();
-  const std::uint64_t frame = under_way_.front().frame;
+  const UnderWay done = under_way_.front();
   under_way_.pop_front();
-  say({FrameEvent::Kind::kReady, frame, std::move(result), {}});
+  say({FrameEvent::Kind::kReady, done.frame, done.epoch, std::move(result), {}});
 }
 
 }  // namespace lfd::node

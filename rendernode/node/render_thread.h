@@ -18,6 +18,7 @@ namespace lfd::node {
 
 struct DrawJob {
   std::uint64_t frame = 0;
+  std::uint64_t epoch = 0;  // given back with the frame's events: whoever asked may have joined anew since
   std::shared_ptr<const proto::State> state;
   std::shared_ptr<const Assets> assets;
   bool time_modules = false;
@@ -32,6 +33,7 @@ struct FrameEvent {
   };
   Kind kind = Kind::kStarted;
   std::uint64_t frame = 0;
+  std::uint64_t epoch = 0;            // of the job
   std::optional<FrameResult> result;  // kReady
   std::string error;
 };
@@ -66,13 +68,13 @@ class RenderThread {
   End draw_with_a_context(int gpu, const DisplayCalibration& display, const std::vector<std::uint32_t>& modules);
   End loop(gl::Context& context, Renderer& renderer);
   void give_up_frames(const std::string& why);
-  void say_undrawn(std::uint64_t frame, const std::string& why);
+  void say_undrawn(std::uint64_t frame, std::uint64_t epoch, const std::string& why);
   void begin(Renderer& renderer, DrawJob job);
   void finish(Renderer& renderer);
   void say(FrameEvent event);
 
   struct UnderWay {
-    std::uint64_t frame = 0;
+    std::uint64_t frame = 0, epoch = 0;
     Clock::time_point begun;
   };
   std::deque<UnderWay> under_way_;  // frames submitted and not yet collected
