@@ -1,6 +1,7 @@
 // Daemons by their names.
 #include "tests/system/fault_stage.h"
 
+#include <iostream>
 #include <thread>
 
 #include "base/check.h"
@@ -26,7 +27,18 @@ FaultStage::FaultStage(const std::string& more, std::string pacing, const std::s
   daemons_.emplace(LFD_BIN_DIR, deployment_, shown());
 }
 
+FaultStage::~FaultStage() {
+  constexpr std::size_t kLastWords = 40;
+  if (!testing::Test::HasFailure()) return;
+  for (const std::string& name : started_) {
+    const std::vector<std::string> lines = daemons_->at(name).lines();
+    for (std::size_t i = lines.size() - std::min(lines.size(), kLastWords); i < lines.size(); ++i)
+      std::cout << name << " | " << lines[i] << "\n";
+  }
+}
+
 Process& FaultStage::start_as(const std::string& name, bench::Daemons::Start how) {
+  started_.insert(name);
   const auto started = daemons_->start(name, std::move(how));
   LFD_CHECK(started, started.error().message());
   if (name == "controller") {

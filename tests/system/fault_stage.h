@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "bench/common/daemons.h"
@@ -20,6 +21,8 @@ class FaultStage {
   // is silent for 0.6 s is out).
   // `host`: where the controller and the display are reached.
   explicit FaultStage(const std::string& more, std::string pacing = kPacing, const std::string& host = "127.0.0.1");
+  // Where the test has failed: prints the last words of every daemon.
+  ~FaultStage();
 
   static constexpr const char* kPacing = "pacing { frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 }";
 
@@ -55,6 +58,7 @@ class FaultStage {
 
  private:
   Workbench bench_{ImageSize{64, 48}};
+  std::set<std::string> started_;
   std::string endpoint_;
   std::filesystem::path deployment_;
   std::optional<bench::Daemons> daemons_;
