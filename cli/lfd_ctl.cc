@@ -1,4 +1,5 @@
 // lfd ctl: looks at a running cluster and changes what it shows.
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,8 @@
 #include "cli/lfd_ctl_pattern.h"
 #include "cli/setting_names.h"
 #include "cli/status_table.h"
+#include "cli/status_watch.h"
+#include "cli/watch_table.h"
 #include "proto/endpoint.h"
 #include "proto/settings.h"
 #include "proto/state.h"
@@ -26,6 +29,8 @@ constexpr auto kLoadPatience = std::chrono::minutes(10);  // of a scene
 // The command line of `lfd ctl`; those of its subcommands fill in what they need.
 struct Arguments {
   std::string controller;  // empty: the only one that runs
+  bool watch = false;
+  double every_s = 1;
   std::vector<double> roi;
   std::vector<double> physical_roi;
   std::vector<double> orientation;
@@ -55,6 +60,8 @@ CLI::Validator endpoint_text() {
 }
 
 Status print_status(const Arguments& arguments) {
+  if (arguments.watch)
+    return watch_status(arguments.controller, std::chrono::milliseconds(std::lround(arguments.every_s * 1000)));
   LFD_TRY(const proto::Status status, ask_status(arguments.controller));
   std::cout << status_table(status);
   return {};
@@ -137,7 +144,7 @@ Status change_ao(const Arguments& arguments) {
   *request.mutable_ao() = status.render().ao();
   merge_ao(arguments, *request.mutable_ao());
   if (same_message(request.ao(), status.render().ao())) {  // nothing was given, or nothing else than is there
-    std::cout << ao_text(status.render().ao());
+    std::cout << ao_text(status.render().ao()) << choices_text(status);
     return {};
   }
   LFD_TRY(const proto::Reply reply, ask_controller(arguments.controller, request));
@@ -252,7 +259,12 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
     command->fallthrough();  // --controller may stand behind the subcommand too
     return command;
   };
-  add("status", "Print what is shown, and who takes part", print_status);
+  CLI::App* status = add("status", "Print what is shown, and who takes part", print_status);
+  CLI::Option* watch = status->add_flag("--watch", a.watch, "Go on printing until Ctrl-C, in a terminal in one place");
+  status->add_option("--every", a.every_s, "Seconds between two tables")
+      ->needs(watch)
+      ->check(number_within(0.1, 3600))
+      ->capture_default_str();
   CLI::App* roi = add("roi", "Change the region of interest, or print it", change_roi);
   CLI::Option* world =
       add_box(*roi, "WORLD", a.roi, Box::kWorld, "Centre and edge lengths in the world, metres (default: as it is)");

@@ -5,6 +5,8 @@
 
 #include "base/log.h"
 #include "cli/setting_names.h"
+#include "cli/terminal.h"
+#include "cli/watch_table.h"
 #include "proto/module_ranges.h"
 #include "proto/settings.h"
 
@@ -12,6 +14,22 @@ namespace lfd {
 namespace {
 
 std::string vector_text(const proto::Vector& v) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", v.x(), v.y(), v.z()); }
+
+// How fast each of them is, and what went wrong last.
+std::string figures_of_peers(const proto::Status& status) {
+  std::string table = fmt::format("{:<16} {:>6} {:>9} {:>6} {:>14}  {}\n", "peer", "fps", "ready ms", "stale",
+                                  "image bytes", "stages, ms");
+  for (const proto::PeerStatus& peer : status.peer()) {
+    table +=
+        fmt::format("{:<16} {:>6.1f} {:>9.1f} {:>6} {:>14}  {}\n", printable(peer.name()), peer.frames_per_second(),
+                    peer.begin_to_ready_ms(), peer.stale_modules(), peer.image_bytes(), stages_text(peer, 20));
+  }
+  for (const proto::PeerStatus& peer : status.peer()) {
+    if (!peer.last_fault().empty())
+      table += fmt::format("last fault of \"{}\": {}\n", printable(peer.name()), printable(peer.last_fault()));
+  }
+  return table;
+}
 
 }  // namespace
 
@@ -44,21 +62,34 @@ std::string ao_text(const proto::AmbientOcclusion& message) {
   const auto settings = read_settings(render);
   if (!settings) return settings.error().message() + "\n";
   const AoSettings& ao = settings->ao;
-  return fmt::format(
-      "occlusion  {}{}\nmethod     {}\nradius     {}, {} radii\nsamples    {}{}, seed {}\n"
-      "curve      a {:g}, b {:g}, c {:g}\nblur       {}\nguard band {} px\nshared     {}\ntarget     {}\n",
-      !ao.enabled          ? "off"
-      : ao.half_resolution ? "on, half resolution"
-                           : "on",
-      ao.enabled && ao.bent_normals ? ", bent normals" : "", method_text(ao),
-      ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
-                      : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
-      ao.radii,
+  // With a budget what nobody asks for comes with the settings that a node chooses.
+  const auto unless_chosen = [&](bool is_asked, std::string text) {
+    return ao.is_chosen_by_budget() && !is_asked ? std::string("every node's own choice") : std::move(text);
+  };
+  const std::string samples =
       ao.samples > 0 ? fmt::format("{} per radius, {}", ao.samples, name_of(kGeneratorNames, message.generator()))
-                     : "none",
-      ao.least_samples > 0 ? fmt::format(", far away fewer, {} at least", ao.least_samples) : "", ao.seed, ao.curve.a,
-      ao.curve.b, ao.curve.c, blur_text(ao), ao.guard_band_px, sharing_text(ao),
-      name_of(kTargetNames, message.target()));
+                     : "none";
+  std::string text = fmt::format("occlusion  {}{}\n",
+                                 !ao.enabled          ? "off"
+                                 : ao.half_resolution ? "on, half resolution"
+                                                      : "on",
+                                 ao.enabled && ao.bent_normals ? ", bent normals" : "");
+  text += fmt::format("method     {}\n", method_text(ao));
+  text += fmt::format("radius     {}, {}\n",
+                      ao.radius_m > 0 ? fmt::format("{:g} m", ao.radius_m)
+                                      : fmt::format("{:g} of the region of interest's diagonal", ao.radius_roi),
+                      ao.is_chosen_by_budget() && message.radii() == 0 ? "as many radii as every node chooses"
+                                                                       : fmt::format("{} radii", ao.radii));
+  text +=
+      fmt::format("samples    {}{}, seed {}\n", unless_chosen(false, samples),
+                  ao.least_samples > 0 ? fmt::format(", far away fewer, {} at least", ao.least_samples) : "", ao.seed);
+  text += fmt::format(
+      "curve      {}\n",
+      unless_chosen(message.has_curve(), fmt::format("a {:g}, b {:g}, c {:g}", ao.curve.a, ao.curve.b, ao.curve.c)));
+  text += fmt::format("blur       {}\n", unless_chosen(message.has_blur(), blur_text(ao)));
+  text += fmt::format("guard band {} px\n", ao.guard_band_px);
+  text += fmt::format("shared     {}\n", unless_chosen(message.has_shared(), sharing_text(ao)));
+  return text + fmt::format("target     {}\n", name_of(kTargetNames, message.target()));
 }
 
 std::string pattern_text(const proto::TestPattern& message) {
@@ -83,23 +114,34 @@ std::string status_table(const proto::Status& status) {
   };
   line("deployment", status.deployment());
   line("scene", status.scene());
+  line("up", fmt::format("{:.0f} s", status.up_s()));
   line("frame", std::to_string(status.frame()));
+  line("shown frames", std::to_string(status.shown_frames()));
   line("frames per second", fmt::format("{:.2f} (unchanged ones included)", status.frames_per_second()));
+  line("begin to swap", fmt::format("{:.1f} ms", status.begin_to_swap_ms()));
+  line("begin to shown", fmt::format("{:.1f} ms", status.begin_to_shown_ms()));
   line("late frames", std::to_string(status.late_frames()));
   line("stale modules", std::to_string(status.stale_modules()));
   line("state", fmt::format("{} (update {})", status.state_hash(), status.sequence()));
   line("occlusion", status.render().ao().has_enabled() && !status.render().ao().enabled() ? "off" : "on");
   line("pattern", pattern_text(status.render().pattern()));
+  line("published", fmt::format("{} bytes", status.published_bytes()));
+  line("refused messages", std::to_string(status.refused_messages()));
+  line("last fault", status.last_fault().empty() ? "none" : printable(status.last_fault()));
   table += roi_text(status.roi());
   for (const std::string& warning : status.scene_warning()) table += fmt::format("warning: {}\n", warning);
+  table += choices_text(status);
   table += fmt::format("\n{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", "peer", "role", "state", "process", "state hash",
                        "modules");
   for (const proto::PeerStatus& peer : status.peer()) {
-    table +=
-        fmt::format("{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", peer.name(),
-                    peer.role() == proto::NODE ? "node" : "display", peer.state(), peer.process(), peer.state_hash(),
-                    module_ranges(std::vector<int>(peer.module().begin(), peer.module().end())));
+    table += fmt::format("{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", printable(peer.name()),
+                         peer.role() == proto::DISPLAY ? "display"
+                         : peer.spare()                ? "spare"
+                                                       : "node",
+                         peer.state(), peer.process(), peer.state_hash(),
+                         module_ranges(std::vector<int>(peer.module().begin(), peer.module().end())));
   }
+  table += "\n" + figures_of_peers(status);
   return table;
 }
 

@@ -6,11 +6,6 @@
 #include "base/check.h"
 
 namespace lfd::controller {
-namespace {
-
-constexpr Clock::duration kRateWindow = std::chrono::seconds(3);
-
-}  // namespace
 
 std::vector<double> matrix_rows(const Affine<Physical, World>& physical_from_world) {
   std::vector<double> rows;
@@ -53,8 +48,7 @@ void FrameLog::swapped(const FrameBarrier::Swap& swap, const std::vector<std::ui
   last_swapped_ = swap.frame;
   stale_modules_ = stale_modules;
   if (swap.late) ++late_frames_;
-  swaps_.push_back(now);
-  while (now - swaps_.front() > kRateWindow) swaps_.pop_front();
+  swaps_.happened(now);
   Entry* entry = find(swap.frame);
   if (entry == nullptr) return;
   entry->report.set_begin_to_swap_ms(milliseconds(now - entry->begun));
@@ -73,13 +67,6 @@ bool FrameLog::all_shown(std::uint64_t first, std::uint64_t count) const {
     return entry.shown && entry.report.frame() >= first && entry.report.frame() - first < count;
   });
   return static_cast<std::uint64_t>(shown) == count;
-}
-
-double FrameLog::frames_per_second(Clock::time_point now) const {
-  const auto first = std::ranges::find_if(swaps_, [&](Clock::time_point swap) { return now - swap <= kRateWindow; });
-  const auto count = std::distance(first, swaps_.end());
-  if (count < 2) return 0;
-  return static_cast<double>(count - 1) / std::chrono::duration<double>(swaps_.back() - *first).count();
 }
 
 std::vector<proto::FrameReport> FrameLog::reports(std::uint64_t first, std::uint64_t count) const {

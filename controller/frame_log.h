@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "calibration/spaces/roi.h"
 #include "controller/frame_barrier.h"
+#include "controller/rate_window.h"
 #include "proto/wire.pb.h"
 
 namespace lfd::controller {
@@ -33,7 +34,7 @@ class FrameLog {
   const std::vector<std::uint32_t>& stale_modules() const { return stale_modules_; }
 
   // Of the frames swapped in the last seconds; 0 where nothing is.
-  double frames_per_second(Clock::time_point now) const;
+  double frames_per_second(Clock::time_point now) const { return swaps_.per_second(now); }
 
   // Reports of frames first .. first + count - 1, as far as they are remembered.
   std::vector<proto::FrameReport> reports(std::uint64_t first, std::uint64_t count) const;
@@ -49,7 +50,7 @@ class FrameLog {
   Entry* find(std::uint64_t frame);
 
   std::deque<Entry> entries_;  // by frame number, without gaps
-  std::deque<Clock::time_point> swaps_;
+  RateWindow swaps_;
   std::vector<std::uint32_t> stale_modules_;
   std::optional<std::uint64_t> last_swapped_;
   std::uint64_t late_frames_ = 0;

@@ -8,8 +8,10 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "base/service.h"
 #include "base/signals.h"
 #include "base/version.h"
+#include "display/display_stats.h"
 #include "display/frame_assembly.h"
 #include "display/picture_writer.h"
 #include "proto/calibration_file.h"
@@ -23,6 +25,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kJoinPause = 300ms;
 constexpr auto kTick = 100ms;
+constexpr auto kLookPause = 500ms;
 constexpr auto kLastWords = 200ms;
 constexpr int kSilentHeartbeats = 6;  // then the controller counts as away
 constexpr auto kWarningPause = 5s;
@@ -33,8 +36,13 @@ std::span<const std::uint32_t> span_of(const google::protobuf::RepeatedField<std
 
 class Daemon {
  public:
-  Daemon(const DaemonOptions& options, wire::Context& context, wire::Socket images, wire::Socket control)
-      : options_(options), context_(context), images_(std::move(images)), control_(std::move(control)) {
+  Daemon(const DaemonOptions& options, wire::Context& context, wire::Socket images, wire::Socket control,
+         MetricServer* metrics)
+      : options_(options),
+        context_(context),
+        images_(std::move(images)),
+        control_(std::move(control)),
+        metrics_(metrics) {
     if (options.out) writer_.emplace(*options.out);
   }
 
@@ -52,6 +60,7 @@ class Daemon {
   void say_shown(std::uint64_t frame, int fresh_modules);
   void give_credits();
   void warn_of_image(const Error& error);
+  void serve(Clock::time_point now);  // the service manager and Prometheus
 
   const DaemonOptions& options_;
   wire::Context& context_;
@@ -65,6 +74,10 @@ class Daemon {
   Clock::duration heartbeat_ = 500ms;
   Clock::time_point next_words_{}, last_heard_{}, last_warning_{};
   std::uint64_t refused_images_ = 0;
+  MetricServer* metrics_;  // may be null
+  DisplayStats stats_;
+  Service service_;
+  Clock::time_point next_look_{};  // when those are told again
 };
 
 Status Daemon::run(StopSignals& signals) {
@@ -78,7 +91,9 @@ Status Daemon::run(StopSignals& signals) {
     show();
     give_credits();
     join_or_beat(Clock::now());
+    serve(Clock::now());
   }
+  service_.stopping();
   proto::Envelope leave;
   leave.mutable_leave()->set_reason(ended_ ? "the controller said quit" : "stopped by a signal");
   control_.linger(kLastWords);
@@ -94,6 +109,19 @@ void Daemon::wait_for_something(StopSignals& signals) {
   if (state_) sockets.push_back(&*state_);
   if (writer_) descriptors.push_back(writer_->descriptor());
   wire::wait(sockets, descriptors, kTick);
+}
+
+void Daemon::serve(Clock::time_point now) {
+  service_.alive(now);
+  if (now < next_look_) return;
+  next_look_ = now + kLookPause;
+  service_.status(fmt::format("{} {}", welcome_ ? "shows the frames of" : "joins", control_.endpoint()));
+  if (metrics_ == nullptr) return;
+  metrics_->publish(stats_.page(options_.name, {.is_member = welcome_,
+                                                .nodes = peer_of_node_.size(),
+                                                .dropped_frames = assembly_.dropped_frames(),
+                                                .refused_images = refused_images_,
+                                                .failed_pictures = writer_ ? writer_->failed_images() : 0}));
 }
 
 void Daemon::join_or_beat(Clock::time_point now) {
@@ -146,6 +174,8 @@ Status Daemon::welcome(const proto::Welcome& message) {
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
   assembly_.configure(static_cast<int>(display->modules.size()), display->image, span_of(message.modules()));
   welcome_ = true;
+  stats_.joined(display->modules.size());
+  service_.ready();
   next_words_ = Clock::now();
   log::info("joined: display \"{}\", {} modules of {} x {} pixels", display->name, display->modules.size(),
             display->image.width, display->image.height);
@@ -174,6 +204,7 @@ void Daemon::hear_images() {
     const auto& envelope = message->envelope;
     if (envelope.has_hello()) hello(message->peer, envelope.hello().node());
     if (!envelope.has_image()) continue;
+    stats_.image_came(message->payload.bytes().size());
     const bool past = assembly_.is_past(envelope.image().frame());
     const Status status =
         assembly_.image_came(message->peer, envelope.image(), std::move(message->payload), Clock::now());
@@ -209,6 +240,7 @@ void Daemon::show() {
 }
 
 void Daemon::say_shown(std::uint64_t frame, int fresh_modules) {
+  stats_.shown(fresh_modules, Clock::now());
   proto::Envelope shown;
   shown.mutable_shown()->set_frame(frame);
   shown.mutable_shown()->set_modules(static_cast<std::uint32_t>(fresh_modules));
@@ -243,10 +275,11 @@ void Daemon::warn_of_image(const Error& error) {
 
 Status run_daemon(const DaemonOptions& options) {
   StopSignals signals;
+  LFD_TRY(const auto metrics, open_metrics("lfd-display", options.metrics));
   wire::Context context;
   LFD_TRY(wire::Socket images, wire::bind_router(context, options.images, wire::kImages));
   LFD_TRY(wire::Socket control, wire::connect_dealer(context, options.controller));
-  Daemon daemon(options, context, std::move(images), std::move(control));
+  Daemon daemon(options, context, std::move(images), std::move(control), metrics.get());
   return daemon.run(signals);
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "base/metric_server.h"
 #include "base/result.h"
 
 namespace lfd::display {
@@ -15,6 +17,7 @@ struct DaemonOptions {
   std::string name = "display";
   std::string calibration_hash;              // of a calibration that the controller's must equal; empty: any
   std::optional<std::filesystem::path> out;  // where frames are written; absent: nowhere
+  std::string metrics;                       // where Prometheus is answered; empty: nowhere
 };
 
 // Runs until SIGTERM, SIGINT or the controller's Quit (success), a refusal by the controller, or an endpoint that

@@ -115,6 +115,7 @@ int main_of_display(int argc, char** argv) {
                      ->capture_default_str();
   app.add_option("--out", out, "Write every shown frame to this folder: frame-0000/module-000.color.png, ...");
   app.add_option("--name", daemon.name, "Name of this display")->capture_default_str();
+  app.add_option("--metrics", daemon.metrics, kMetricsHelp)->type_name("ADDRESS:PORT");
   add_log_level(app, level);
   add_view(app, view_options);
   add_sheet(app, sheet_options);

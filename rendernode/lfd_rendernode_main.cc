@@ -21,6 +21,7 @@ struct Arguments {
   DaemonOptions options;
   bool list_gpus = false;
   std::string log_level = "info";
+  std::string metrics;
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -33,6 +34,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--out", a.options.out,
                  "Folder for images where the deployment's sink is FILES; default: the deployment's");
   app.add_flag("--list-gpus", a.list_gpus, "List the GPUs that EGL offers, and end");
+  app.add_option("--metrics", a.metrics, kMetricsHelp)->type_name("ADDRESS:PORT");
   add_log_level(app, a.log_level);
 }
 
@@ -74,6 +76,9 @@ int run(Arguments a) {
   if (!deployment) return fail(deployment.error());
   if (const Status completed = complete(a, *deployment); !completed) return wrong_use(completed.error());
   if (const Status known = gl::check_gpu(a.options.gpu); !known) return fail(known.error());
+  auto metrics = open_metrics("lfd-rendernode", a.metrics);
+  if (!metrics) return fail(metrics.error());
+  a.options.metrics = *std::move(metrics);
   auto daemon = Daemon::open(std::move(a.options));
   if (!daemon) return fail(daemon.error());
   const Status ended = (*daemon)->run(signals);

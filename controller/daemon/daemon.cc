@@ -89,6 +89,7 @@ Status Daemon::run(StopSignals& signals) {
     if (const auto signal = signals.take()) end_ = fmt::format("signal {}", *signal);
     tick(now);
   }
+  service_.stopping();
   log::info("ends: {}", *end_);
   proto::Envelope quit;
   quit.mutable_quit()->set_reason(*end_);
@@ -121,17 +122,20 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
       return;
     case proto::Envelope::kReady:
       if (peer == nullptr) return;
+      stats_.ready(peer->name, envelope.ready(), now);
       return take_ready(*peer, envelope.ready());
     case proto::Envelope::kPrepared:
       if (peer != nullptr) change_.prepared(peer->name, envelope.prepared().number(), envelope.prepared().error());
       return;
     case proto::Envelope::kShown:
-      if (peer != nullptr && peer->role == proto::DISPLAY) log_.shown(envelope.shown().frame(), now);
-      return;
+      if (peer == nullptr || peer->role != proto::DISPLAY) return;
+      stats_.shown(peer->name, envelope.shown().frame(), now);
+      return log_.shown(envelope.shown().frame(), now);
     case proto::Envelope::kLeave:
       if (const auto name = members_.leave(message.peer)) peer_is_gone(*name, envelope.leave().reason().c_str());
       return;
     default:
+      stats_.refused();
       log::debug("control: a message that nobody sends to a controller");
       return;
   }
@@ -147,10 +151,11 @@ void Daemon::tick(Clock::time_point now) {
   }
   settle_shares(now);
   advance(now);
+  serve(now);
 }
 
 Clock::time_point Daemon::wake_at() const {
-  Clock::time_point wake = next_pulse_;
+  Clock::time_point wake = std::min(next_pulse_, service_.next_alive());
   if (const auto deadline = barrier_.next_deadline()) wake = std::min(wake, *deadline);
   const auto step = pacing_.next();
   if (step && barrier_.may_begin() && *step > Clock::now()) wake = std::min(wake, *step);
@@ -159,6 +164,7 @@ Clock::time_point Daemon::wake_at() const {
 
 void Daemon::publish(proto::Envelope envelope) {
   envelope.set_session(session_);
+  stats_.published(envelope.ByteSizeLong());
   if (const Status sent = links_.state.send(envelope); !sent) log::error("state: {}", sent.error().message());
 }
 

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "base/metric_server.h"
+#include "base/service.h"
 #include "base/signals.h"
 #include "controller/assignment.h"
+#include "controller/cluster_stats.h"
 #include "controller/daemon/links.h"
 #include "controller/daemon/scene_loader.h"
 #include "controller/frame_barrier.h"
@@ -27,6 +30,7 @@ class Daemon {
     Deployment deployment;
     std::vector<std::string> only_modules;  // empty: all
     bool idle = false;                      // no frame until frames are asked for; those have no deadline
+    std::shared_ptr<MetricServer> metrics;  // told the cluster's metrics; may be null
   };
 
   // Binds the sockets; nothing is loaded yet.
@@ -100,10 +104,13 @@ class Daemon {
   Result<bool> start_frames(const wire::Message& message);
   Result<bool> start_scene(const wire::Message& message);
   proto::Follow follow() const;
-  proto::Status status(Clock::time_point now) const;
   void reply(const std::string& client, std::uint64_t id, const Status& done);
   // An error in place of what no message can hold.
   void reply(const std::string& client, proto::Reply answer);
+
+  // daemon_status.cc: what others see of it
+  proto::Status status(Clock::time_point now) const;
+  void serve(Clock::time_point now);  // the service manager and Prometheus
 
   Options options_;
   std::unique_ptr<wire::Context> context_;
@@ -121,6 +128,9 @@ class Daemon {
   FrameBarrier barrier_;
   controller::Pacing pacing_;
   FrameLog log_;
+  ClusterStats stats_{Clock::now()};
+  Service service_;
+  Clock::time_point next_look_{};  // when others are told again
   std::optional<FramesAsked> asked_;
   std::set<std::string> late_;  // nodes that were missing in the last frame swapped
   std::optional<Clock::time_point> last_swap_;

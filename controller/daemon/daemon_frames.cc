@@ -38,6 +38,7 @@ void Daemon::begin_frame(Clock::time_point now) {
   const std::uint64_t frame = barrier_.begin(nodes, now);
   open_[frame] = drawn_by;
   pacing_.begun(now);
+  stats_.begun(frame, now);
   log_.begun(frame, stage_.roi(), stage_.store().hash(), now);
   proto::Envelope envelope;
   proto::BeginFrame& begin = *envelope.mutable_begin();
@@ -76,7 +77,8 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   message.mutable_stale_modules()->Add(stale.begin(), stale.end());
   publish(std::move(envelope));
   log_.swapped(swap, stale, now);
-  if (!has_display_sink()) log_.shown(swap.frame, now);
+  stats_.swapped(swap, now);
+  if (!has_display_sink()) log_.shown(swap.frame, now), stats_.shown({}, swap.frame, now);
   last_swap_ = now;
   late_ = {swap.missing.begin(), swap.missing.end()};
   log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun),

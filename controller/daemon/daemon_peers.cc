@@ -13,12 +13,14 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   const Result<std::optional<std::string>> joined = members_.join(join, message.peer, now);
   if (!joined) {
     log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), joined.error().message());
+    stats_.join_refused(join.name(), joined.error().message());
     proto::Envelope refused;
     refused.mutable_refused()->set_reason(joined.error().message());
     return send(message.peer, refused);
   }
   if (!*joined) return log::debug("\"{}\" (process {}) comes under a name that may live", join.name(), join.process());
   const std::string& name = **joined;
+  stats_.joined(name);
   change_.gone(name);
   barrier_.gone(name);  // whatever it drew before it joined anew is lost
   if (!asks_again) log::info("\"{}\" joins (process {})", name, join.process());
@@ -68,6 +70,7 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
 void Daemon::peer_is_gone(const std::string& name, const char* why) {
   log::warn("\"{}\" is out: {}", name, why);
   change_.gone(name);
+  stats_.fault(name, fmt::format("out: {}", why));
   barrier_.gone(name);
   late_.erase(name);
   if (members_.find(name)->role == proto::DISPLAY) publish_images_endpoint();

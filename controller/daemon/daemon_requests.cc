@@ -111,33 +111,4 @@ proto::Follow Daemon::follow() const {
   return follow;
 }
 
-proto::Status Daemon::status(Clock::time_point now) const {
-  proto::Status status;
-  const proto::State& state = stage_.store().state();
-  status.set_deployment(options_.deployment.message.name());
-  status.set_scene(state.scene().name());
-  status.set_frame(log_.last_swapped().value_or(0));
-  status.set_sequence(state.sequence());
-  status.set_state_hash(stage_.store().hash());
-  status.set_frames_per_second(log_.frames_per_second(now));
-  *status.mutable_roi() = state.roi();
-  *status.mutable_render() = state.render();
-  status.set_late_frames(log_.late_frames());
-  if (stage_.has_scene()) status.mutable_scene_warning()->Add(stage_.warnings().begin(), stage_.warnings().end());
-  status.set_stale_modules(static_cast<std::uint32_t>(log_.stale_modules().size()));
-  status.set_module_count(static_cast<std::uint32_t>(options_.deployment.display.modules.size()));
-  for (const Peer* peer : members_.peers()) {
-    proto::PeerStatus& entry = *status.add_peer();
-    entry.set_role(peer->role);
-    entry.set_name(peer->name);
-    entry.set_state(peer->phase == Phase::kReady && late_.contains(peer->name) ? "late" : name_of(peer->phase));
-    entry.set_state_hash(peer->state_hash);
-    entry.set_process(peer->process);
-    if (peer->role != proto::NODE) continue;
-    for (const std::uint32_t module : shares_.of(peer->name)) entry.add_module(module);
-    entry.set_spare(shares_.is_spare(peer->name));
-  }
-  return status;
-}
-
 }  // namespace lfd::controller

@@ -14,6 +14,7 @@ Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
       arrival.scene ? stage_.preview(*arrival.scene) : Result<proto::Update>(arrival.scene.error());
   if (!update && arrival.asker.empty()) return update.error().within("scene");
   if (!update) {
+    stats_.fault({}, update.error().within("scene").message());
     log::error("scene: {}", update.error().message());
     reply(arrival.asker, arrival.request_id, update.error());
     return {};
@@ -57,6 +58,7 @@ void Daemon::show_next_scene(Clock::time_point now) {
   log::info("scene: {} is shown", stage_.store().state().scene().name());
   for (const std::string& warning : stage_.warnings()) log::warn("scene: {}", warning);
   publish(*update);
+  service_.ready();
   if (!first_shown_) first_shown_ = now;
   for (const Peer* peer : members_.peers()) {
     if (peer->lives() && !peer->last_heard) welcome(*peer, now);
@@ -67,6 +69,7 @@ void Daemon::show_next_scene(Clock::time_point now) {
 void Daemon::refuse_next_scene(const Error& why) {
   const SceneArrival next = *std::exchange(next_scene_, std::nullopt);
   change_.finish();
+  stats_.fault({}, why.within("scene").message());
   log::error("scene: {}; the old one stays", why.message());
   proto::Envelope envelope;
   envelope.mutable_prepare()->set_number(change_.number());

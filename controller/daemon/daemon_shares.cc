@@ -26,6 +26,7 @@ void Daemon::settle_shares(Clock::time_point now) {
     const std::vector<std::uint32_t>& modules = shares_.of(spare);
     log::warn("\"{}\" takes over modules {} of \"{}\"", spare,
               module_ranges(std::vector<int>(modules.begin(), modules.end())), shares_.stands_in_for(spare));
+    stats_.fault(shares_.stands_in_for(spare), fmt::format("\"{}\" stands in for it", spare));
     members_.reassigned(spare);
     change_.gone(spare);
     barrier_.gone(spare);  // it leaves what it may still be drawing

@@ -21,6 +21,7 @@ struct Arguments {
   bool accept_calibration = false;
   bool print_endpoint = false;
   std::string log_level = "info";
+  std::string metrics;
   Daemon::Options options;
 };
 
@@ -43,6 +44,7 @@ void add_options(CLI::App& app, Arguments& a) {
   add_list(app, "--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)");
   app.add_flag("--idle", a.options.idle, "Draw no frame until a client asks for frames");
   app.add_flag("--print-endpoint", a.print_endpoint, "Print the control endpoint on standard output, once it is bound");
+  app.add_option("--metrics", a.metrics, kMetricsHelp)->type_name("ADDRESS:PORT");
   add_log_level(app, a.log_level);
 }
 
@@ -84,6 +86,9 @@ int run(Arguments arguments) {
   auto deployment = read_deployment(arguments);
   if (!deployment) return fail(deployment.error());
   arguments.options.deployment = *deployment;
+  auto metrics = open_metrics("lfd-controller", arguments.metrics);
+  if (!metrics) return fail(metrics.error());
+  arguments.options.metrics = *std::move(metrics);
   auto daemon = Daemon::open(std::move(arguments.options));  // first: whether its addresses are free is said at once
   if (!daemon) return fail(daemon.error());
   if (const Status judged = judge_calibration(arguments, *deployment); !judged) return fail(judged.error());

@@ -20,6 +20,7 @@ constexpr auto kJoinPause = 300ms;
 constexpr auto kTick = 20ms;
 constexpr auto kLastWords = 200ms;
 constexpr auto kSnapshotPause = 500ms;
+constexpr auto kLookPause = 500ms;
 constexpr int kSilentHeartbeats = 6;  // then the controller counts as away
 
 }  // namespace
@@ -47,7 +48,9 @@ Status Daemon::run(StopSignals& signals) {
     hear_display();
     send_images();
     join_or_beat(Clock::now());
+    serve(Clock::now());
   }
+  service_.stopping();
   proto::Envelope leave;
   leave.mutable_leave()->set_reason(reason);
   control_.linger(kLastWords);
@@ -72,6 +75,18 @@ void Daemon::wait_for_something(const StopSignals& signals) const {
 void Daemon::say(proto::Envelope envelope) {
   envelope.set_session(session_);
   if (const Status sent = control_.send(envelope); !sent) log::debug("{}", sent.error().message());
+}
+
+void Daemon::serve(Clock::time_point now) {
+  service_.alive(now);
+  if (now < next_look_) return;
+  next_look_ = now + kLookPause;
+  service_.status(welcome_ ? fmt::format("\"{}\": draws for {}", options_.name, control_.endpoint())
+                           : fmt::format("\"{}\": joins {}", options_.name, control_.endpoint()));
+  if (!options_.metrics) return;
+  options_.metrics->publish(stats_.page(options_.name, {.is_member = welcome_,
+                                                        .sequence = ready_state_ ? ready_state_->sequence() : 0,
+                                                        .dropped_frames = dropped_frames_}));
 }
 
 void Daemon::join_or_beat(Clock::time_point now) {
@@ -151,6 +166,8 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   images_endpoint_.clear();  // greet it anew, wherever it is
   use_images_endpoint(message.images_endpoint());
   welcome_ = true;
+  stats_.joined(static_cast<std::size_t>(message.modules_size()));
+  service_.ready();
   next_words_ = Clock::now();
   log::info("joined; {} modules, state {}", message.modules_size(), follower_.sequence());
   return {};
@@ -220,6 +237,7 @@ void Daemon::hear_state() {
         follower_.pulse_came(envelope.begin().sequence());
         if (!draws(envelope.begin())) break;
         fault::at(fault::kBegin, envelope.begin().frame());
+        stats_.begun(envelope.begin().frame(), last_heard_);
         begun_.push_back({envelope.begin(), follower_.state()});
         begin_frames();  // before the next update: a frame is drawn from the state it names
         break;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/metric_server.h"
+#include "base/service.h"
 #include "base/signals.h"
 #include "proto/asset_gatherer.h"
 #include "proto/deployment.pb.h"
@@ -16,16 +18,18 @@
 #include "proto/wire/socket.h"
 #include "rendernode/node/file_sink.h"
 #include "rendernode/node/image_outbox.h"
+#include "rendernode/node/node_stats.h"
 #include "rendernode/node/render_thread.h"
 
 namespace lfd::node {
 
 struct DaemonOptions {
-  std::string name;              // as in the deployment
-  std::string controller;        // control endpoint
-  int gpu = -1;                  // of --list-gpus; -1: the first that works
-  std::string calibration_hash;  // of the deployment's display, which the controller's must equal
-  std::string out;               // folder of the sink `files`
+  std::string name;                       // as in the deployment
+  std::string controller;                 // control endpoint
+  int gpu = -1;                           // of --list-gpus; -1: the first that works
+  std::string calibration_hash;           // of the deployment's display, which the controller's must equal
+  std::string out;                        // folder of the sink `files`
+  std::shared_ptr<MetricServer> metrics;  // may be null
 };
 
 class Daemon {
@@ -77,6 +81,7 @@ class Daemon {
   void follow_assets();
   void hear_bulk();
   void say(proto::Envelope envelope);
+  void serve(Clock::time_point now);  // the service manager and Prometheus
 
   // daemon_scenes.cc: a scene that is to come is built beside the one that is shown
   void take_prepare(const proto::Prepare& message);
@@ -132,6 +137,10 @@ class Daemon {
   ImageOutbox outbox_;
   std::optional<FileSink> files_;
   std::deque<FrameEvent> waiting_;  // frames whose images wait for the outbox
+
+  NodeStats stats_;
+  Service service_;
+  Clock::time_point next_look_{};  // when those are told again
 
   bool welcome_ = false, may_drop_ = false, ended_ = false;
   bool hears_state_ = false;  // a pulse has come: no begin will be missed, so the controller may count on this node

@@ -78,6 +78,7 @@ Status Daemon::take_events_of(RenderThread& thread) {
         proto::Envelope drawn;
         fault::at(fault::kDrawn, event->frame);
         drawn.mutable_drawn()->set_frame(event->frame);
+        stats_.drawn(event->frame, Clock::now());
         say(drawn);
         break;
       }
@@ -147,6 +148,7 @@ void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
   report.set_node(options_.name);
   const auto drawn = states_.extract(frame);
   if (drawn && report.error().empty()) report.set_state_hash(drawn.mapped().hash);
+  stats_.ready(frame, report, Clock::now());
   proto::Envelope ready;
   ready.mutable_ready()->set_frame(frame);
   *ready.mutable_ready()->mutable_report() = std::move(report);
@@ -192,6 +194,7 @@ void Daemon::send_images() {
     envelope.set_session(session_);
     if (!images_->send(envelope, image->payload)) break;
     const std::uint64_t frame = image->header.frame();
+    stats_.sent_image(image->payload.bytes().size());
     outbox_.sent();
     fault::at(fault::kSending, frame);  // the first of its images has gone
   }

@@ -50,6 +50,8 @@ const std::vector<Door>& doors() {
       {{"spdlog/"}, {"base/log.cc"}},
       {{"fmt/"}, {"base/log.h"}},
       {{"xxhash.h"}, {"base/hash.cc"}},
+      {{"prometheus/"}, {"base/metric_server.cc"}},
+      {{"systemd/"}, {"base/service.cc"}},
       {{"zmq"}, {"proto/wire/"}},
       {{"google/protobuf/text_format.h", "google/protobuf/io/tokenizer.h", "google/protobuf/descriptor.h"},
        {"proto/text_file.", "bench/stability/message_fields.cc"}},
