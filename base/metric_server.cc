@@ -65,11 +65,9 @@ Result<std::string> listening_place(const std::string& place) {
   std::string port = colon == place.npos ? place : place.substr(colon + 1);
   if (address.empty() || address == "localhost") address = "127.0.0.1";
   if (port == "*") port = "0";
-  in6_addr parsed{};
-  const bool is_v6 = address.size() > 2 && address.front() == '[' && address.back() == ']' &&
-                     ::inet_pton(AF_INET6, address.substr(1, address.size() - 2).c_str(), &parsed) == 1;
-  if (!is_v6 && ::inet_pton(AF_INET, address.c_str(), &parsed) != 1)
-    return Error(fmt::format("\"{}\": \"{}\" is no numeric address of this machine", place, address));
+  in_addr parsed{};
+  if (::inet_pton(AF_INET, address.c_str(), &parsed) != 1)  // Debian's civetweb knows no IPv6
+    return Error(fmt::format("\"{}\": \"{}\" is no IPv4 address", place, address));
   int number = -1;
   const auto [end, failure] = std::from_chars(port.data(), port.data() + port.size(), number);
   if (failure != std::errc() || end != port.data() + port.size() || number < 0 || number > 65535)
@@ -110,8 +108,9 @@ Result<std::unique_ptr<MetricServer>> MetricServer::open(const std::string& plac
   try {
     exposed->server = std::make_unique<prometheus::Exposer>(std::vector<std::string>{
         "listening_ports", *listening, "num_threads", kThreads, "request_timeout_ms", kPatience_ms});
-  } catch (const std::exception& failure) {
-    return Error(fmt::format("metrics: {} cannot be listened at: {}", *listening, failure.what()));
+  } catch (const std::exception&) {  // it says no reason
+    return Error(fmt::format(
+        "metrics: {} cannot be listened at: it is no address of this machine, or the port is taken", *listening));
   }
   exposed->handle = std::shared_ptr<prometheus::Collectable>(exposed.get(), [](auto*) {});
   exposed->server->RegisterCollectable(exposed->handle);

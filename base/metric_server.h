@@ -17,7 +17,7 @@ inline constexpr const char* kMetricsHelp =
 
 class MetricServer {
  public:
-  // "PORT", "ADDRESS:PORT" or "[IPV6]:PORT". Make it once signals are blocked: it starts threads. Errors: no such
+  // "PORT" or "ADDRESS:PORT", of IPv4. Make it once signals are blocked: it starts threads. Errors: no such
   // place, the port is taken.
   static Result<std::unique_ptr<MetricServer>> open(const std::string& place);
   ~MetricServer();
