@@ -53,9 +53,10 @@ function(lfd_precompile_in_release target)
   endif()
 endfunction()
 
-# lfd_program(NAME SOURCES ... LINKS ...): one executable in bin/.
+# lfd_program(NAME SOURCES ... LINKS ...): one executable in bin/, which is installed.
 function(lfd_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} lfd_warnings)
+  install(TARGETS ${name} DESTINATION usr/bin)
 endfunction()
