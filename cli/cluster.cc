@@ -9,6 +9,8 @@
 #include <mutex>
 
 #include "base/log.h"
+#include "proto/deployment_keys.h"
+#include "proto/key_files.h"
 #include "proto/module_ranges.h"
 
 namespace lfd {
@@ -95,6 +97,10 @@ Status Cluster::add(const ClusterOptions& options, const std::string& name, std:
 Result<Cluster> Cluster::start(const ClusterOptions& options, StopSignals& signals) {
   Cluster cluster;
   LFD_TRY(cluster.deployment_, load_deployment(options));
+  if (const auto keys = keys_folder(cluster.deployment_)) {
+    LFD_TRY(const std::filesystem::path key, find_operator_key(*keys));
+    cluster.key_file_ = key.string();
+  }
   LFD_TRY(const std::set<int> wanted, wanted_modules(options, cluster.deployment_));
 
   LFD_TRY_STATUS(cluster.add(options, "controller", controller_command(options)));
@@ -114,8 +120,8 @@ Result<Cluster> Cluster::start(const ClusterOptions& options, StopSignals& signa
   cluster.endpoint_ = line->substr(kEndpointLine.size());
 
   if (!options.images.empty() || cluster.deployment_.message.sink() == proto::Deployment::DISPLAY) {
-    std::vector<std::string> command{program("lfd-display"), "--controller", cluster.endpoint_, "--images",
-                                     cluster.deployment_.addresses.images};
+    std::vector<std::string> command{program("lfd-display"), options.deployment, "--controller", cluster.endpoint_};
+    add_option(command, "--display", options.display);
     add_option(command, "--out", options.images);
     add_option(command, "--log-level", options.log_level);
     LFD_TRY_STATUS(cluster.add(options, "display", std::move(command)));

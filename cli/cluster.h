@@ -52,6 +52,7 @@ class Cluster {
 
   const Deployment& deployment() const { return deployment_; }
   const std::string& endpoint() const { return endpoint_; }     // of the controller
+  const std::string& key_file() const { return key_file_; }     // of who may change the show; empty: without keys
   const std::vector<int>& modules() const { return modules_; }  // that are drawn, ascending
 
   // Waits until a child ends, a signal comes or `at_most` has passed.
@@ -75,7 +76,7 @@ class Cluster {
   Status add(const ClusterOptions& options, const std::string& name, std::vector<std::string> command);
 
   Deployment deployment_;
-  std::string endpoint_;
+  std::string endpoint_, key_file_;
   std::vector<int> modules_;
   std::vector<std::unique_ptr<Process>> processes_;  // the controller first
 };

@@ -8,14 +8,19 @@
 
 namespace lfd {
 
-Result<ControlClient> ControlClient::connect(const std::string& endpoint) {
-  auto context = std::make_unique<wire::Context>();
+Result<ControlClient> ControlClient::connect(const std::string& endpoint, const std::string& key_file) {
+  LFD_TRY(auto context, wire::open_context(key_file));
   LFD_TRY(wire::Socket socket, wire::connect_dealer(*context, endpoint));
   return ControlClient(endpoint, std::move(context), std::move(socket));
 }
 
 ControlClient::ControlClient(std::string endpoint, std::unique_ptr<wire::Context> context, wire::Socket socket)
     : endpoint_(std::move(endpoint)), context_(std::move(context)), socket_(std::move(socket)) {}
+
+Error ControlClient::no_answer() {
+  const std::string why = socket_.trouble();
+  return Error(fmt::format("no controller answers at {}{}{}", endpoint_, why.empty() ? "" : ": ", why));
+}
 
 Result<std::uint64_t> ControlClient::send(proto::Request request, Clock::duration at_most) {
   const auto deadline = Clock::now() + at_most;
@@ -25,7 +30,7 @@ Result<std::uint64_t> ControlClient::send(proto::Request request, Clock::duratio
   while (true) {
     const Status sent = socket_.send(envelope);
     if (sent) return last_id_;
-    if (Clock::now() >= deadline) return Error(fmt::format("no controller answers at {}", endpoint_));
+    if (Clock::now() >= deadline) return no_answer();
     wire::wait({&socket_}, {}, std::chrono::milliseconds(10));  // connections are made in the background
   }
 }
@@ -51,7 +56,7 @@ Result<proto::Reply> ControlClient::ask(const proto::Request& request, Clock::du
   const auto deadline = Clock::now() + at_most;
   LFD_TRY(const std::uint64_t id, send(request, at_most));
   const auto reply = receive(id, deadline - Clock::now());
-  if (!reply) return Error(fmt::format("no controller answers at {}", endpoint_));
+  if (!reply) return no_answer();
   if (!reply->error().empty()) return Error(reply->error());
   return *reply;
 }

@@ -13,8 +13,8 @@ namespace lfd {
 
 class ControlClient {
  public:
-  // Errors: the endpoint cannot be read.
-  static Result<ControlClient> connect(const std::string& endpoint);
+  // key_file: whose key to come with; empty: without. Errors: the endpoint or the key cannot be read.
+  static Result<ControlClient> connect(const std::string& endpoint, const std::string& key_file = {});
 
   // Sends a request, once the controller is there; its number is filled in and returned. Errors: nobody is there in
   // time.
@@ -31,6 +31,8 @@ class ControlClient {
 
  private:
   ControlClient(std::string endpoint, std::unique_ptr<wire::Context> context, wire::Socket socket);
+
+  Error no_answer();
 
   std::string endpoint_;
   std::unique_ptr<wire::Context> context_;

@@ -9,13 +9,21 @@ namespace lfd {
 
 inline constexpr auto kAnswerPatience = std::chrono::seconds(5);
 
-// endpoint: where the controller listens; empty: the only one that `lfd run` runs here.
-Result<ControlClient> connect_controller(const std::string& endpoint);
+// Which controller, and as whom.
+struct ControllerAt {
+  ControllerAt(std::string where = {}) : endpoint(std::move(where)) {}  // NOLINT: implicit by design
+
+  std::string endpoint;       // empty: the only one that `lfd run` runs here
+  std::string key_file;       // empty: that of the cluster that `lfd run` runs here, if it has keys
+  bool accept_plain = false;  // without keys, beyond this machine
+};
+
+Result<ControlClient> connect_controller(const ControllerAt& controller);
 
 // One request and its reply; a reply that tells an error is an error.
-Result<proto::Reply> ask_controller(const std::string& endpoint, const proto::Request& request,
+Result<proto::Reply> ask_controller(const ControllerAt& controller, const proto::Request& request,
                                     Clock::duration patience = kAnswerPatience);
 
-Result<proto::Status> ask_status(const std::string& endpoint);
+Result<proto::Status> ask_status(const ControllerAt& controller);
 
 }  // namespace lfd

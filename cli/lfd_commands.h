@@ -12,6 +12,7 @@ void add_run_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
 void add_ctl_command(CLI::App& app, int& exit_code);
+void add_keys_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 
 // One of the boxes of a region of interest as CX,CY,CZ,SX,SY,SZ: centre and edge lengths. What no region of interest

@@ -15,6 +15,7 @@
 #include "cli/lfd_ctl_pattern.h"
 #include "cli/setting_names.h"
 #include "cli/status_table.h"
+#include "proto/deployment_keys.h"
 #include "cli/status_watch.h"
 #include "cli/watch_table.h"
 #include "proto/endpoint.h"
@@ -28,7 +29,7 @@ constexpr auto kLoadPatience = std::chrono::minutes(10);  // of a scene
 
 // The command line of `lfd ctl`; those of its subcommands fill in what they need.
 struct Arguments {
-  std::string controller;  // empty: the only one that runs
+  ControllerAt controller;
   bool watch = false;
   double every_s = 1;
   std::vector<double> roi;
@@ -249,8 +250,13 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   Arguments& a = *arguments;
   CLI::App* ctl = app.add_subcommand("ctl", "Look at a running cluster, or change what it shows");
   ctl->require_subcommand(1);
-  ctl->add_option("--controller", a.controller, "Control endpoint (default: the only cluster that `lfd run` runs here)")
+  ctl->add_option("--controller", a.controller.endpoint,
+                  "Control endpoint (default: the only cluster that `lfd run` runs here)")
       ->check(endpoint_text());
+  ctl->add_option(
+      "--key", a.controller.key_file,
+      "Key file, beside allow.textproto (default: that of the cluster that `lfd run` runs here, if it has keys)");
+  ctl->add_flag(kAcceptPlainOption, a.controller.accept_plain, "Talk to a controller without keys beyond this machine");
   const auto add = [&](const char* name, const char* description, Status (*what)(const Arguments&)) {
     CLI::App* command = add_command(*ctl, name, description, exit_code, [arguments, what] {
       const Status done = what(*arguments);

@@ -59,7 +59,7 @@ proto::TestPattern message_of(const Arguments& a) {
 }
 
 // The exit code. What the options ask and cannot be is wrong use, modules that the display does not have too.
-int change_pattern(const std::string& controller, const Arguments& arguments) {
+int change_pattern(const ControllerAt& controller, const Arguments& arguments) {
   proto::Request request;
   *request.mutable_pattern() = message_of(arguments);
   const auto pattern = read_pattern(request.pattern());
@@ -123,7 +123,7 @@ void add_options(CLI::App& command, Arguments& a) {
 
 }  // namespace
 
-void add_pattern_command(CLI::App& ctl, std::shared_ptr<const std::string> controller, int& exit_code) {
+void add_pattern_command(CLI::App& ctl, std::shared_ptr<const ControllerAt> controller, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       add_command(ctl, "pattern", "Show test patterns instead of the scene, or print which", exit_code,

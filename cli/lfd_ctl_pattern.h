@@ -2,13 +2,13 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "base/command_line.h"
+#include "cli/ctl_requests.h"
 
 namespace lfd {
 
-// controller: the endpoint once the command line is parsed; empty: the only one that runs.
-void add_pattern_command(CLI::App& ctl, std::shared_ptr<const std::string> controller, int& exit_code);
+// controller: as it is once the command line is parsed.
+void add_pattern_command(CLI::App& ctl, std::shared_ptr<const ControllerAt> controller, int& exit_code);
 
 }  // namespace lfd

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   lfd::add_render_command(app, exit_code);
   lfd::add_view_command(app, exit_code);
   lfd::add_ctl_command(app, exit_code);
+  lfd::add_keys_command(app, exit_code);
   lfd::add_bench_command(app, exit_code);
   return lfd::parse_command_line(app, argc, argv).value_or(exit_code);
 }

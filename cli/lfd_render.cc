@@ -159,8 +159,8 @@ Status check_images(const RenderOptions& options, const Cluster& cluster,
 }
 
 Status draw(const RenderOptions& options, Cluster& cluster, StopSignals& signals) {
-  LFD_TRY(ControlClient client, ControlClient::connect(cluster.endpoint()));
-  LFD_TRY(ControlClient watcher, ControlClient::connect(cluster.endpoint()));
+  LFD_TRY(ControlClient client, ControlClient::connect(cluster.endpoint(), cluster.key_file()));
+  LFD_TRY(ControlClient watcher, ControlClient::connect(cluster.endpoint(), cluster.key_file()));
   LFD_TRY_STATUS(await_scene(cluster, watcher, signals));
   LFD_TRY_STATUS(clear_folder(options.cluster.images));  // not before: without a scene nothing comes in its place
   std::vector<proto::FrameReport> frames;

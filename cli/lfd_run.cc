@@ -12,12 +12,16 @@ namespace {
 
 constexpr auto kLong = std::chrono::hours(1);  // to wait at a time
 
+std::string full_path_of(const std::filesystem::path& path) {
+  std::error_code failure;
+  return path.empty() ? "" : std::filesystem::absolute(path, failure).string();
+}
+
 Status run(const ClusterOptions& options, StopSignals& signals) {
   LFD_TRY_STATUS(make_runtime_folder());
   LFD_TRY(Cluster cluster, Cluster::start(options, signals));
-  std::error_code failure;
-  const auto full_path = std::filesystem::absolute(options.deployment, failure);
-  LFD_TRY(const RuntimeFile file, RuntimeFile::write(cluster.endpoint(), full_path.string()));
+  const std::string full_path = full_path_of(options.deployment);
+  LFD_TRY(const RuntimeFile file, RuntimeFile::write(cluster.endpoint(), full_path, full_path_of(cluster.key_file())));
   std::cout << fmt::format("running {}: control {}\n", options.deployment.string(), cluster.endpoint()) << std::flush;
   while (true) {
     cluster.wait(signals, kLong);

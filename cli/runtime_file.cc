@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <sstream>
 
 #include "base/file.h"
 #include "base/log.h"
@@ -49,9 +50,10 @@ std::optional<RunningCluster> read_entry(const fs::path& path) {
   }
   const auto text = read_file(path, 1 << 16);
   if (!text) return std::nullopt;
-  const std::size_t line = text->find('\n');
-  cluster.endpoint = text->substr(0, line);
-  if (line != std::string::npos) cluster.deployment = text->substr(line + 1, text->find('\n', line + 1) - line - 1);
+  std::istringstream lines(*text);
+  std::getline(lines, cluster.endpoint);
+  std::getline(lines, cluster.deployment);
+  std::getline(lines, cluster.key_file);
   return cluster;
 }
 
@@ -73,9 +75,10 @@ Status make_runtime_folder() {
   return usable.error().within("XDG_RUNTIME_DIR");
 }
 
-Result<RuntimeFile> RuntimeFile::write(const std::string& endpoint, const std::string& deployment) {
+Result<RuntimeFile> RuntimeFile::write(const std::string& endpoint, const std::string& deployment,
+                                       const std::string& key_file) {
   const fs::path path = runtime_folder() / fmt::format("{}{}", ::getpid(), kExtension);
-  LFD_TRY_STATUS(write_file(path, endpoint + "\n" + deployment + "\n"));
+  LFD_TRY_STATUS(write_file(path, endpoint + "\n" + deployment + "\n" + key_file + "\n"));
   return RuntimeFile(path);
 }
 
@@ -95,10 +98,10 @@ std::vector<RunningCluster> running_clusters() {
   return clusters;
 }
 
-Result<std::string> only_running_endpoint() {
+Result<RunningCluster> only_running_cluster() {
   const std::vector<RunningCluster> clusters = running_clusters();
   if (clusters.empty()) return Error("no cluster runs (start one with `lfd run`, or name it with --controller)");
-  if (clusters.size() == 1) return clusters.front().endpoint;
+  if (clusters.size() == 1) return clusters.front();
   std::string list;
   for (const RunningCluster& one : clusters) {
     list += fmt::format("\n  --controller {}  (process {}, {})", one.endpoint, one.process, one.deployment);

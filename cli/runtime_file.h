@@ -13,6 +13,7 @@ struct RunningCluster {
   int process = 0;  // of `lfd run`
   std::string endpoint;
   std::string deployment;
+  std::string key_file;  // that opens it to who may change the show; empty: it works without keys
 };
 
 // ${XDG_RUNTIME_DIR:-/tmp}/lfd-<user id>
@@ -24,7 +25,8 @@ Status make_runtime_folder();
 // The file of this process; it is removed with the object.
 class RuntimeFile {
  public:
-  static Result<RuntimeFile> write(const std::string& endpoint, const std::string& deployment);
+  static Result<RuntimeFile> write(const std::string& endpoint, const std::string& deployment,
+                                   const std::string& key_file);
   RuntimeFile(RuntimeFile&& other) noexcept : path_(std::move(other.path_)) { other.path_.clear(); }
   RuntimeFile& operator=(RuntimeFile&&) = delete;
   ~RuntimeFile();
@@ -37,7 +39,7 @@ class RuntimeFile {
 // All that run; files of processes that are gone are left out and removed.
 std::vector<RunningCluster> running_clusters();
 
-// The endpoint of the only one. Errors: none runs; several do (all are listed).
-Result<std::string> only_running_endpoint();
+// The only one. Errors: none runs; several do (all are listed).
+Result<RunningCluster> only_running_cluster();
 
 }  // namespace lfd

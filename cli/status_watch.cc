@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/signals.h"
-#include "cli/ctl_requests.h"
 #include "cli/terminal.h"
 #include "cli/watch_table.h"
 #include "proto/wire/poll.h"
@@ -20,7 +19,7 @@ constexpr Clock::duration kLeastPatience = 2s;  // with a controller that is bus
 
 class Watch {
  public:
-  Watch(std::string endpoint, Clock::duration every) : endpoint_(std::move(endpoint)), every_(every) {}
+  Watch(ControllerAt controller, Clock::duration every) : controller_(std::move(controller)), every_(every) {}
 
   Status run();
 
@@ -30,7 +29,7 @@ class Watch {
   Result<std::optional<proto::Status>> ask();
 
   StopSignals signals_;  // before anything starts a thread
-  std::string endpoint_;
+  ControllerAt controller_;
   Clock::duration every_;
   std::optional<ControlClient> client_;
   bool ended_ = false;
@@ -45,7 +44,7 @@ Result<std::optional<proto::Status>> Watch::ask() {
   const auto deadline = Clock::now() + std::max(every_, kLeastPatience);
   const auto may_go_on = [&] { return !is_ended() && Clock::now() < deadline; };
   if (!client_) {
-    auto connected = connect_controller(endpoint_);  // without an endpoint: where the cluster listens may have changed
+    auto connected = connect_controller(controller_);  // without an endpoint: where the cluster listens may have changed
     if (!connected) return std::optional<proto::Status>();
     client_ = *std::move(connected);
   }
@@ -67,7 +66,7 @@ Result<std::optional<proto::Status>> Watch::ask() {
 }
 
 Status Watch::run() {
-  LFD_TRY(client_, connect_controller(endpoint_));
+  LFD_TRY(client_, connect_controller(controller_));
   WatchTable table;
   LiveOutput output;
   while (!is_ended()) {
@@ -84,6 +83,6 @@ Status Watch::run() {
 
 }  // namespace
 
-Status watch_status(const std::string& endpoint, Clock::duration every) { return Watch(endpoint, every).run(); }
+Status watch_status(const ControllerAt& controller, Clock::duration every) { return Watch(controller, every).run(); }
 
 }  // namespace lfd

@@ -131,6 +131,7 @@ std::optional<std::string> Membership::leave(const std::string& address) {
 }
 
 std::vector<std::string> Membership::expire(Clock::time_point now) {
+  forget_displays();
   std::vector<std::string> gone;
   for (auto& [name, peer] : peers_) {
     if (!peer.lives() || !peer.last_heard || now - *peer.last_heard <= rules_.patience) continue;
@@ -138,6 +139,13 @@ std::vector<std::string> Membership::expire(Clock::time_point now) {
     gone.push_back(name);
   }
   return gone;
+}
+
+void Membership::forget_displays() {
+  const auto is_gone = [](const Peer& peer) { return peer.role == proto::DISPLAY && !peer.lives(); };
+  auto too_many =
+      std::ranges::count_if(peers_, [&](const auto& entry) { return is_gone(entry.second); }) - kGoneDisplays;
+  std::erase_if(peers_, [&](const auto& entry) { return is_gone(entry.second) && too_many-- > 0; });
 }
 
 const Peer* Membership::find(const std::string& name) const {

@@ -90,10 +90,12 @@ class Membership {
   const Peer* find(const std::string& name) const;
   const Peer* at(const std::string& address) const;
   const Peer* display() const;             // the living one
-  std::vector<const Peer*> peers() const;  // all that the deployment names, and displays that ever joined
+  std::vector<const Peer*> peers() const;  // all that the deployment names, and the display; also a few that went
   std::vector<std::string> ready_nodes() const;
 
  private:
+  static constexpr int kGoneDisplays = 8;  // that are remembered: any number of names may come and go
+  void forget_displays();
   Status check(const proto::Join& join) const;
   // Whether it may come now; absent: not decided yet.
   Result<bool> may_take_name(const proto::Join& join, const std::string& address, Clock::time_point now);

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <map>
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -14,7 +13,9 @@
 #include "display/display_stats.h"
 #include "display/frame_assembly.h"
 #include "display/picture_writer.h"
+#include "display/senders.h"
 #include "proto/calibration_file.h"
+#include "proto/deployment_keys.h"
 #include "proto/wire/poll.h"
 #include "proto/wire/socket.h"
 
@@ -42,6 +43,7 @@ class Daemon {
         context_(context),
         images_(std::move(images)),
         control_(std::move(control)),
+        senders_(options.nodes, !is_local_endpoint(images_.endpoint())),
         metrics_(metrics) {
     if (options.out) writer_.emplace(*options.out);
   }
@@ -55,7 +57,8 @@ class Daemon {
   Status welcome(const proto::Welcome& message);
   void hear_state();
   void hear_images();
-  void hello(const std::string& peer, const std::string& node);
+  void hello(const wire::Message& message, Clock::time_point now);
+  void forget_if_gone(const std::string& peer);
   void show();
   void say_shown(std::uint64_t frame, int fresh_modules);
   void give_credits();
@@ -68,7 +71,7 @@ class Daemon {
   std::optional<wire::Socket> state_;
   std::optional<PictureWriter> writer_;
   FrameAssembly assembly_;
-  std::map<std::string, std::string> peer_of_node_;
+  Senders senders_;
   bool welcome_ = false, ended_ = false;
   bool told_shown_ = true;  // the controller could be told of the last frame
   Clock::duration heartbeat_ = 500ms;
@@ -200,26 +203,37 @@ void Daemon::hear_state() {
 }
 
 void Daemon::hear_images() {
+  const Clock::time_point now = Clock::now();
   while (auto message = images_.receive()) {
     const auto& envelope = message->envelope;
-    if (envelope.has_hello()) hello(message->peer, envelope.hello().node());
+    senders_.heard(message->peer, now);
+    if (envelope.has_hello()) hello(*message, now);
     if (!envelope.has_image()) continue;
     stats_.image_came(message->payload.bytes().size());
     const bool past = assembly_.is_past(envelope.image().frame());
-    const Status status =
-        assembly_.image_came(message->peer, envelope.image(), std::move(message->payload), Clock::now());
+    const Status status = assembly_.image_came(message->peer, envelope.image(), std::move(message->payload), now);
     if (!status && past) log::debug("{}", status.error().message());  // as where a node joins before the display
     if (!status && !past) warn_of_image(status.error());
   }
 }
 
-void Daemon::hello(const std::string& peer, const std::string& node) {
-  std::string& known = peer_of_node_[node];
-  if (known == peer) return;
-  if (!known.empty()) assembly_.node_left(known);
-  known = peer;
-  assembly_.node_came(peer);
+void Daemon::hello(const wire::Message& message, Clock::time_point now) {
+  const std::string& node = message.envelope.hello().node();
+  if (const auto before = senders_.speaks_for(node); before && *before != message.peer) forget_if_gone(*before);
+  const auto greeting = senders_.hello(message.peer, message.user, node, now);
+  if (!greeting) return warn_of_image(greeting.error());
+  if (!greeting->is_new) return;
+  if (greeting->replaced) assembly_.node_left(*greeting->replaced);
+  assembly_.node_came(message.peer);
   log::info("node \"{}\" sends images", node);
+}
+
+void Daemon::forget_if_gone(const std::string& peer) {
+  proto::Envelope nothing;
+  nothing.mutable_credit();
+  if (images_.send_to(peer, nothing)) return;
+  senders_.left(peer);
+  assembly_.node_left(peer);
 }
 
 void Daemon::show() {
@@ -250,17 +264,16 @@ void Daemon::say_shown(std::uint64_t frame, int fresh_modules) {
 }
 
 void Daemon::give_credits() {
-  for (auto node = peer_of_node_.begin(); node != peer_of_node_.end();) {
-    const auto here = node++;
-    const std::uint32_t images = assembly_.credit_for(here->second);
+  for (const auto& [node, peer] : senders_.peers()) {
+    const std::uint32_t images = assembly_.credit_for(peer);
     if (images == 0) continue;
     proto::Envelope credit;
     credit.mutable_credit()->set_images(images);
-    const Status sent = images_.send_to(here->second, credit);
+    const Status sent = images_.send_to(peer, credit);
     if (sent) continue;
-    log::info("node \"{}\" sends no more images: {}", here->first, sent.error().message());
-    assembly_.node_left(here->second);
-    peer_of_node_.erase(here);
+    log::info("node \"{}\" sends no more images: {}", node, sent.error().message());
+    assembly_.node_left(peer);
+    senders_.left(peer);
   }
 }
 
@@ -271,15 +284,25 @@ void Daemon::warn_of_image(const Error& error) {
   log::warn("{} (so far {} images refused)", error.message(), refused_images_);
 }
 
+// What is larger than any image of the display is not even taken in; packed, one may grow a little.
+wire::Limits limits_for(const DaemonOptions& options) {
+  wire::Limits limits = wire::kImages;
+  if (!options.image) return limits;
+  const std::int64_t largest = std::int64_t{16} * options.image->width * options.image->height;
+  limits.max_part_bytes = std::min(limits.max_part_bytes, largest + largest / 64 + wire::kShort_bytes);
+  return limits;
+}
+
 }  // namespace
 
 Status run_daemon(const DaemonOptions& options) {
   StopSignals signals;
   LFD_TRY(const auto metrics, open_metrics("lfd-display", options.metrics));
-  wire::Context context;
-  LFD_TRY(wire::Socket images, wire::bind_router(context, options.images, wire::kImages));
-  LFD_TRY(wire::Socket control, wire::connect_dealer(context, options.controller));
-  Daemon daemon(options, context, std::move(images), std::move(control), metrics.get());
+  LFD_TRY(const auto context, wire::open_context(options.key_file));
+  LFD_TRY(wire::Socket images,
+          wire::bind_router(*context, options.images, limits_for(options), wire::Listener::kDisplay));
+  LFD_TRY(wire::Socket control, wire::connect_dealer(*context, options.controller));
+  Daemon daemon(options, *context, std::move(images), std::move(control), metrics.get());
   return daemon.run(signals);
 }
 

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "base/metric_server.h"
 #include "base/result.h"
+#include "calibration/spaces/pixel.h"
 
 namespace lfd::display {
 
@@ -18,6 +20,9 @@ struct DaemonOptions {
   std::string calibration_hash;              // of a calibration that the controller's must equal; empty: any
   std::optional<std::filesystem::path> out;  // where frames are written; absent: nowhere
   std::string metrics;                       // where Prometheus is answered; empty: nowhere
+  std::string key_file;                      // empty: without keys
+  std::set<std::string> nodes;               // that may send images; empty: any
+  std::optional<ImageSize> image;            // of a module, where it is known beforehand: nothing larger is taken in
 };
 
 // Runs until SIGTERM, SIGINT or the controller's Quit (success), a refusal by the controller, or an endpoint that

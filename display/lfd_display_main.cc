@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/command_line.h"
+#include "base/descriptors.h"
 #include "base/file.h"
 #include "base/log.h"
 #include "display/contact_sheet.h"
@@ -11,7 +12,9 @@
 #include "display/viewer.h"
 #include "proto/calibration_file.h"
 #include "proto/deployment_file.h"
+#include "proto/deployment_keys.h"
 #include "proto/endpoint.h"
+#include "proto/key_files.h"
 #include "proto/pictures/png.h"
 
 namespace lfd::display {
@@ -59,18 +62,39 @@ Status sheet(const SheetOptions& options) {
   return write_png(options.out, picture, PngChannels::kRgb);
 }
 
-Status run(DaemonOptions options, const std::string& deployment_file, bool images_given) {
-  if (!deployment_file.empty()) {
-    LFD_TRY(const Deployment deployment, load_deployment(deployment_file));
-    options.calibration_hash = calibration_hash(deployment.display);
-    if (!images_given) options.images = deployment.addresses.images;
-    if (options.controller.empty() && is_fixed_endpoint(deployment.addresses.control)) {
-      options.controller = deployment.addresses.control;
-    }
-  }
-  if (options.controller.empty())
-    return Error(fmt::format("{}: the control port is not given there; say --controller", deployment_file));
-  return run_daemon(options);
+// The options of a display that joins; what they leave open the deployment says, where there is one.
+struct JoinOptions {
+  std::string deployment_file, display_file;
+  DaemonOptions daemon;
+  bool images_given = false;
+  bool accept_plain = false;
+};
+
+Status take_deployment(JoinOptions& options) {
+  DeploymentOverrides overrides;
+  if (!options.display_file.empty()) overrides.display = options.display_file;
+  LFD_TRY(const Deployment deployment, load_deployment(options.deployment_file, overrides));
+  DaemonOptions& daemon = options.daemon;
+  daemon.calibration_hash = calibration_hash(deployment.display);
+  daemon.image = deployment.display.image;
+  for (const NodeShare& node : deployment.nodes) daemon.nodes.insert(node.name);
+  if (!options.images_given) daemon.images = deployment.addresses.images;
+  if (daemon.controller.empty() && is_fixed_endpoint(deployment.addresses.control))
+    daemon.controller = deployment.addresses.control;
+  LFD_TRY(daemon.key_file, choose_key_file(deployment, daemon.key_file, kDisplayKey));
+  options.accept_plain = deployment.message.security().accept_plain_tcp_beyond_loopback();
+  return {};
+}
+
+Status run(JoinOptions options) {
+  raise_descriptor_limit();
+  if (!options.deployment_file.empty()) LFD_TRY_STATUS(take_deployment(options));
+  const DaemonOptions& daemon = options.daemon;
+  if (daemon.controller.empty())
+    return Error(fmt::format("{}: the control port is not given there; say --controller", options.deployment_file));
+  for (const std::string& endpoint : {daemon.controller, daemon.images})
+    LFD_TRY_STATUS(check_endpoint(endpoint, !daemon.key_file.empty(), options.accept_plain));
+  return run_daemon(daemon);
 }
 
 void add_view(CLI::App& app, ViewOptions& options) {
@@ -104,30 +128,36 @@ int main_of_display(int argc, char** argv) {
       "lfd-display");
   app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it within 2 s.");
   app.require_subcommand(0, 1);
-  DaemonOptions daemon;
+  JoinOptions join;
+  DaemonOptions& daemon = join.daemon;
   ViewOptions view_options;
   SheetOptions sheet_options;
-  std::string deployment, out, level = "info";
-  app.add_option("DEPLOYMENT", deployment,
-                 "Deployment file: addresses, and the calibration that the controller's must equal");
+  std::string out, level = "info";
+  app.add_option("DEPLOYMENT", join.deployment_file,
+                 "Deployment file: addresses, keys, nodes, and the calibration that the controller's must equal");
+  app.add_option("--display", join.display_file, "Calibration file used instead of the deployment's");
   app.add_option("--controller", daemon.controller, "The controller's control endpoint, e.g. tcp://127.0.0.1:5555");
   auto* images = app.add_option("--images", daemon.images, "Endpoint to take images at; port * chooses a free one")
                      ->capture_default_str();
   app.add_option("--out", out, "Write every shown frame to this folder: frame-0000/module-000.color.png, ...");
+  app.add_option("--key", daemon.key_file, "Key file of the display; default: display.key of the deployment's keys");
+  app.add_flag(kAcceptPlainOption, join.accept_plain,
+               "Without keys and deployment: whoever reaches the addresses may take part");
   app.add_option("--name", daemon.name, "Name of this display")->capture_default_str();
   app.add_option("--metrics", daemon.metrics, kMetricsHelp)->type_name("ADDRESS:PORT");
   add_log_level(app, level);
   add_view(app, view_options);
   add_sheet(app, sheet_options);
   if (const auto code = parse_command_line(app, argc, argv)) return *code;
-  if (app.get_subcommands().empty() && deployment.empty() && daemon.controller.empty()) {
+  if (app.get_subcommands().empty() && join.deployment_file.empty() && daemon.controller.empty()) {
     return wrong_use(Error("where is the controller? Say --controller, or give a deployment file"));
   }
   start_log(daemon.name, level);
   if (!out.empty()) daemon.out = out;
+  join.images_given = images->count() > 0;
   const Status status = app.got_subcommand("view")    ? view(view_options)
                         : app.got_subcommand("sheet") ? sheet(sheet_options)
-                                                      : run(daemon, deployment, images->count() > 0);
+                                                      : run(join);
   return status ? kExitDone : fail(status.error());
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/log.h"
 #include "proto/deployment_checks.h"
+#include "proto/deployment_keys.h"
 #include "proto/endpoint.h"
 
 namespace lfd::deployment {
@@ -14,16 +15,24 @@ bool has_wildcard(std::string_view endpoint) {
          endpoint.starts_with("tcp://[::]:");
 }
 
-// Reached from this machine alone.
-bool is_local(std::string_view endpoint) {
-  return !endpoint.starts_with("tcp://") || endpoint.starts_with("tcp://127.") ||
-         endpoint.starts_with("tcp://localhost:") || endpoint.starts_with("tcp://[::1]:");
+// Plain tcp that others reach is an error of the file, unless it says so.
+Check check_reach(const proto::Deployment::Security& m, const std::string& road, const std::string& endpoint) {
+  const auto reach = check_endpoint(endpoint, !m.keys().empty(), m.accept_plain_tcp_beyond_loopback());
+  if (reach) return std::nullopt;
+  return Fault{
+      road,
+      Error(reach.error().message() + ", or say security { accept_plain_tcp_beyond_loopback: true }").within(road)};
 }
 
 }  // namespace
 
 Check read_addresses(const proto::Deployment& deployment, Addresses& addresses) {
   const proto::Deployment::Addresses& m = deployment.addresses();
+  const proto::Deployment::Security& security = deployment.security();
+  if (!security.keys().empty() && security.accept_plain_tcp_beyond_loopback()) {
+    const std::string road = "security: accept_plain_tcp_beyond_loopback";
+    return Fault{road, Error(road + ": with keys nothing is plain: one of the two")};
+  }
   std::map<std::string, std::string> seen;
   for (const auto& [field, text, address] :
        {std::tuple{"control", &m.control(), &addresses.control}, std::tuple{"state", &m.state(), &addresses.state},
@@ -38,12 +47,13 @@ Check read_addresses(const proto::Deployment& deployment, Addresses& addresses) 
     if (is_fixed_endpoint(*text) && !seen.emplace(*text, field).second) {
       return Fault{road, Error(fmt::format("{}: \"{}\" is the address of {} already", road, *text, seen[*text]))};
     }
+    if (auto fault = check_reach(security, road, *text)) return fault;
     *address = *text;
   }
-  if (is_local(addresses.control)) return std::nullopt;
+  if (is_local_endpoint(addresses.control)) return std::nullopt;
   for (const auto& [field, address] :
        {std::pair{"state", &addresses.state}, {"bulk", &addresses.bulk}, {"images", &addresses.images}}) {
-    if (!is_local(*address)) continue;
+    if (!is_local_endpoint(*address)) continue;
     return Fault{"addresses",
                  Error(fmt::format("addresses: {}: \"{}\" cannot be reached from other machines, as control can", field,
                                    *address))};

@@ -4,10 +4,12 @@
 #include <cstdlib>
 
 #include "base/command_line.h"
+#include "base/descriptors.h"
 #include "base/log.h"
 #include "base/signals.h"
 #include "proto/calibration_file.h"
 #include "proto/deployment_file.h"
+#include "proto/deployment_keys.h"
 #include "rendernode/gl/context.h"
 #include "rendernode/node/daemon.h"
 
@@ -29,6 +31,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--name", a.options.name, "Name of this node in the deployment");
   app.add_option("--controller", a.options.controller, "Control endpoint of the controller; default: the deployment's");
   app.add_option("--display", a.display, "Calibration file used instead of the deployment's");
+  app.add_option("--key", a.options.key_file, "Key file of this node; default: NAME.key of the deployment's keys");
   app.add_option("--gpu", a.options.gpu,
                  "Number of the GPU (--list-gpus); default: the deployment's, else the first that works");
   app.add_option("--out", a.options.out,
@@ -59,6 +62,8 @@ Status complete(Arguments& a, const Deployment& deployment) {
     return Error(
         fmt::format("{}: its control address has no fixed port; name the controller with --controller", a.deployment));
   }
+  LFD_TRY_STATUS(check_endpoint(deployment, a.options.controller));
+  LFD_TRY(a.options.key_file, choose_key_file(deployment, a.options.key_file, a.options.name));
   if (a.options.out.empty()) {
     const std::string& files = deployment.message.files();
     a.options.out = (deployment.folder / (files.empty() ? "frames" : files)).string();
@@ -70,6 +75,7 @@ Status complete(Arguments& a, const Deployment& deployment) {
 int run(Arguments a) {
   StopSignals signals;
   start_log("node " + a.options.name, a.log_level);
+  raise_descriptor_limit();
   DeploymentOverrides overrides;
   if (!a.display.empty()) overrides.display = a.display;
   const auto deployment = load_deployment(a.deployment, overrides);

@@ -9,6 +9,7 @@
 
 #include "base/metric_server.h"
 #include "base/service.h"
+#include "base/now_and_then.h"
 #include "base/signals.h"
 #include "controller/assignment.h"
 #include "controller/cluster_stats.h"
@@ -16,6 +17,7 @@
 #include "controller/daemon/scene_loader.h"
 #include "controller/frame_barrier.h"
 #include "controller/frame_log.h"
+#include "controller/join_limiter.h"
 #include "controller/membership.h"
 #include "controller/pacing.h"
 #include "controller/scene_change.h"
@@ -31,6 +33,7 @@ class Daemon {
     std::vector<std::string> only_modules;  // empty: all
     bool idle = false;                      // no frame until frames are asked for; those have no deadline
     std::shared_ptr<MetricServer> metrics;  // told the cluster's metrics; may be null
+    std::string key_file;                   // empty: without keys
   };
 
   // Binds the sockets; nothing is loaded yet.
@@ -89,6 +92,10 @@ class Daemon {
   void show_next_scene(Clock::time_point now);
   void refuse_next_scene(const Error& why);
   const Assets* assets_for(const std::string& hash) const;
+  // daemon_strangers.cc: who may
+  bool lets_join(const wire::Message& message, Clock::time_point now);  // else it is refused, or passed over
+  bool seems_repeated(const wire::Message& message, Clock::time_point now);
+  Status may_ask_for(const wire::Message& message, Clock::time_point now);
 
   // daemon_frames.cc: the life of frames
   void advance(Clock::time_point now);
@@ -125,6 +132,8 @@ class Daemon {
   std::map<std::uint64_t, Assignment> open_;      // who draws the frames that are open
   std::optional<Clock::time_point> first_shown_;  // when the first scene was there
   Membership members_;
+  JoinLimiter limiter_;
+  NowAndThen refusals_;  // of requests, in the log
   FrameBarrier barrier_;
   controller::Pacing pacing_;
   FrameLog log_;

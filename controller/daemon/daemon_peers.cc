@@ -6,6 +6,7 @@
 namespace lfd::controller {
 
 void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
+  if (!lets_join(message, now)) return;
   const proto::Join& join = message.envelope.join();
   const Peer* known = members_.at(message.peer);
   const bool asks_again = known != nullptr && known->name == join.name() && !known->last_heard;

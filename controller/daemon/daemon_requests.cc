@@ -34,6 +34,7 @@ void Daemon::reply(const std::string& client, proto::Reply answer) {
 
 void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
   const proto::Request& request = message.envelope.request();
+  if (const Status may = may_ask_for(message, now); !may) return reply(message.peer, request.id(), may);
   const auto change = [&](const Result<proto::Update>& update) {
     if (update) publish(*update);
     reply(message.peer, request.id(), update ? Status() : Status(update.error()));

@@ -3,10 +3,13 @@
 #include <cstdlib>
 
 #include "base/command_line.h"
+#include "base/descriptors.h"
 #include "base/log.h"
 #include "base/signals.h"
 #include "calibration/check/acceptance.h"
 #include "controller/daemon/daemon.h"
+#include "proto/deployment_keys.h"
+#include "proto/key_files.h"
 #include "proto/settings.h"
 
 namespace lfd::controller {
@@ -16,7 +19,7 @@ struct Arguments {
   std::string deployment;
   std::string scene, display;
   std::vector<double> roi;
-  std::string plan, sink;
+  std::string plan, sink, key;
   bool no_ao = false;
   bool accept_calibration = false;
   bool print_endpoint = false;
@@ -43,6 +46,7 @@ void add_options(CLI::App& app, Arguments& a) {
                "Show the display even where its calibration misses the limits of `lfd-calibrate check`");
   add_list(app, "--only-modules", a.options.only_modules, "Draw these modules alone: numbers and ranges (3,8-11)");
   app.add_flag("--idle", a.options.idle, "Draw no frame until a client asks for frames");
+  app.add_option("--key", a.key, "Key file of the controller; default: controller.key of the deployment's keys");
   app.add_flag("--print-endpoint", a.print_endpoint, "Print the control endpoint on standard output, once it is bound");
   app.add_option("--metrics", a.metrics, kMetricsHelp)->type_name("ADDRESS:PORT");
   add_log_level(app, a.log_level);
@@ -83,12 +87,16 @@ Result<Deployment> read_deployment(const Arguments& a) {
 int run(Arguments arguments) {
   StopSignals signals;
   start_log("controller", arguments.log_level);
+  raise_descriptor_limit();
   auto deployment = read_deployment(arguments);
   if (!deployment) return fail(deployment.error());
   arguments.options.deployment = *deployment;
   auto metrics = open_metrics("lfd-controller", arguments.metrics);
   if (!metrics) return fail(metrics.error());
   arguments.options.metrics = *std::move(metrics);
+  auto key = choose_key_file(*deployment, arguments.key, kControllerKey);
+  if (!key) return wrong_use(key.error());
+  arguments.options.key_file = *std::move(key);
   auto daemon = Daemon::open(std::move(arguments.options));  // first: whether its addresses are free is said at once
   if (!daemon) return fail(daemon.error());
   if (const Status judged = judge_calibration(arguments, *deployment); !judged) return fail(judged.error());

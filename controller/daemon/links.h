@@ -13,9 +13,9 @@ struct Links {
 
   // Binds all three. The error names the endpoint and, where it is taken, its owner.
   static Result<Links> open(wire::Context& context, const Addresses& addresses) {
-    LFD_TRY(wire::Socket control, wire::bind_router(context, addresses.control));
-    LFD_TRY(wire::Socket state, wire::bind_publisher(context, addresses.state));
-    LFD_TRY(wire::Socket bulk, wire::bind_router(context, addresses.bulk, wire::kChunks));
+    LFD_TRY(wire::Socket control, wire::bind_router(context, addresses.control, wire::kReports));
+    LFD_TRY(wire::Socket state, wire::bind_publisher(context, addresses.state, wire::kUpdates));
+    LFD_TRY(wire::Socket bulk, wire::bind_router(context, addresses.bulk, wire::kWants));
     return Links{std::move(control), std::move(state), std::move(bulk)};
   }
 };

@@ -1,19 +1,12 @@
 // Envelopes over ZeroMQ sockets; its exceptions end here.
 #include "proto/wire/socket.h"
 
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
-#include <vector>
 
 #include "base/log.h"
 #include "base/version.h"
-#include "proto/endpoint.h"
-#include "proto/wire/owner.h"
 #include "proto/wire/transport.h"
 
 namespace lfd::wire {
@@ -21,70 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kReconnectAfter_ms = 100;
-constexpr int kReconnectAtMost_ms = 1000;  // the pause doubles up to this
-constexpr int kHandshakeAtMost_ms = 5000;
 constexpr auto kWarningPause = 5s;
-
-void set_limits(zmq::socket_t& socket, zmq::socket_type type, const Limits& limits) {
-  namespace option = zmq::sockopt;
-  socket.set(option::linger, 0);
-  socket.set(option::ipv6, 0);
-  socket.set(option::maxmsgsize, limits.max_part_bytes);
-  socket.set(option::sndhwm, limits.queued_messages);
-  socket.set(option::rcvhwm, limits.queued_messages);
-  socket.set(option::handshake_ivl, kHandshakeAtMost_ms);
-  socket.set(option::reconnect_ivl, kReconnectAfter_ms);
-  socket.set(option::reconnect_ivl_max, kReconnectAtMost_ms);
-  socket.set(option::heartbeat_ivl, 0);  // peers have heartbeats of their own, which say more
-  if (type == zmq::socket_type::router) socket.set(option::router_mandatory, 1);
-  if (type == zmq::socket_type::dealer) socket.set(option::immediate, 1);
-  if (type == zmq::socket_type::xpub) socket.set(option::xpub_nodrop, 1);
-  if (type == zmq::socket_type::sub) socket.set(option::subscribe, "");
-}
-
-// ZeroMQ would silently take an ipc path away from its owner: ask first whether somebody listens there.
-bool somebody_listens(const std::string& ipc_path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (ipc_path.empty() || ipc_path.size() >= sizeof(address.sun_path) || ipc_path[0] == '@') return false;
-  std::memcpy(address.sun_path, ipc_path.data(), ipc_path.size());
-  const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (probe < 0) return false;
-  const bool connected = ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  ::close(probe);
-  return connected;
-}
-
-Error taken(const std::string& endpoint) {
-  const auto owner = owner_of(endpoint);
-  if (!owner) return Error(fmt::format("{}: the address is in use by a process that cannot be seen", endpoint));
-  return Error(fmt::format("{}: the address is in use by process {} ({})", endpoint, owner->process, owner->command));
-}
-
-using Attach = void (zmq::socket_t::*)(const std::string&);
-
-Result<Socket> open(Context& context, zmq::socket_type type, const std::string& endpoint, const Limits& limits,
-                    Attach attach) {
-  const bool binds = attach == static_cast<Attach>(&zmq::socket_t::bind);
-  LFD_TRY_STATUS(validate_endpoint(endpoint));
-  const std::string ipc_file = binds && endpoint.starts_with("ipc://") ? endpoint.substr(6) : "";
-  if (somebody_listens(ipc_file)) return taken(endpoint);
-  try {
-    auto made = std::make_unique<Socket::Transport>();
-    made->zmq = zmq::socket_t(context.transport().zmq, type);
-    made->type = type;
-    made->limits = limits;
-    set_limits(made->zmq, type, limits);
-    (made->zmq.*attach)(endpoint);
-    made->ipc_file = ipc_file;
-    made->endpoint = binds ? made->zmq.get(zmq::sockopt::last_endpoint) : endpoint;
-    return Socket(std::move(made));
-  } catch (const zmq::error_t& error) {
-    if (error.num() == EADDRINUSE) return taken(endpoint);
-    return Error(fmt::format("{}: {}", endpoint, error.what()));
-  }
-}
 
 // A message that ends the life of its owner when the transport has done with it.
 zmq::message_t without_copy(const Payload& payload) {
@@ -123,19 +53,30 @@ Sent send_parts(zmq::socket_t& socket, const std::string& peer, const std::strin
 
 Status check_size(const Socket::Transport& socket, std::size_t envelope_bytes, std::size_t payload_bytes) {
   for (const std::size_t bytes : {envelope_bytes, payload_bytes}) {
-    if (bytes > static_cast<std::size_t>(socket.limits.max_part_bytes)) {
+    if (bytes > socket.most_sent_bytes()) {
       return Error(fmt::format("{}: {} bytes are too many to send; at most {} go", socket.endpoint, bytes,
-                               socket.limits.max_part_bytes));
+                               socket.most_sent_bytes()));
     }
   }
   return {};
 }
 
-void warn_now_and_then(Socket::Transport& socket, std::string_view what) {
+bool warning_is_due(Socket::Transport& socket) {
   const auto now = Clock::now();
-  if (socket.last_warning && now - *socket.last_warning < kWarningPause) return;
+  if (socket.last_warning && now - *socket.last_warning < kWarningPause) return false;
   socket.last_warning = now;
-  log::warn("{}: {} (so far {} refused, {} lost)", socket.endpoint, what, socket.refused, socket.lost);
+  return true;
+}
+
+void warn_now_and_then(Socket::Transport& socket, std::string_view what) {
+  if (warning_is_due(socket))
+    log::warn("{}: {} (so far {} refused, {} lost)", socket.endpoint, what, socket.refused, socket.lost);
+}
+
+void hear_of_handshakes(Socket::Transport& socket) {
+  if (!socket.handshakes) return;
+  const auto failure = socket.handshakes->take_failure();
+  if (failure && warning_is_due(socket)) log::warn("{}: {}", socket.endpoint, *failure);
 }
 
 // All that is received of one message; `parts` beyond the third are counted but not kept.
@@ -161,15 +102,41 @@ std::optional<Parts> receive_parts(zmq::socket_t& socket) {
   }
 }
 
+// Who sent it, as the allow-list calls it. The library lets what the list says stand before what a peer says of itself;
+// without keys, anybody could say anything.
+std::string user_of(zmq::message_t& part) {
+  const char* user = ::zmq_msg_gets(part.handle(), "User-Id");
+  return user == nullptr ? "" : user;
+}
+
+// How long an envelope of this peer may be that has so many bytes.
+std::size_t most_envelope_bytes(const Socket::Transport& socket, const std::string& peer, std::size_t bytes,
+                                const std::function<bool(const std::string& peer)>& is_known) {
+  const Limits& limits = socket.limits;
+  const std::int64_t most = limits.max_envelope_bytes > 0 ? limits.max_envelope_bytes : limits.max_part_bytes;
+  const bool is_short = bytes <= static_cast<std::size_t>(kShort_bytes);
+  const bool is_stranger = !is_short && is_known && !is_known(peer);
+  return static_cast<std::size_t>(is_stranger ? std::min(most, kShort_bytes) : most);
+}
+
 // The message, or why it is none.
-Result<Message> read(Parts& parts, bool from_router) {
+Result<Message> read(Parts& parts, const Socket::Transport& socket,
+                     const std::function<bool(const std::string& peer)>& is_known) {
+  const bool from_router = socket.type == zmq::socket_type::router;
   Message message;
   const int envelope_at = from_router ? 1 : 0;
   if (from_router) message.peer = parts.part[0].to_string();
   if (parts.count < envelope_at + 1 || parts.count > envelope_at + 2) {
     return Error(fmt::format("a message of {} parts; one or two are expected", parts.count - envelope_at));
   }
-  const zmq::message_t& envelope = parts.part[envelope_at];
+  zmq::message_t& envelope = parts.part[envelope_at];
+  if (const std::size_t most = most_envelope_bytes(socket, message.peer, envelope.size(), is_known);
+      envelope.size() > most)
+    return Error(fmt::format("an envelope of {} bytes; at most {} are read of this peer", envelope.size(), most));
+  if (socket.names_users) {
+    message.user = user_of(envelope);
+    if (message.user.empty()) return Error("a message of nobody that the allow-list names");
+  }
   if (!message.envelope.ParseFromArray(envelope.data(), static_cast<int>(envelope.size()))) {
     return Error("a message that cannot be parsed");
   }
@@ -181,9 +148,6 @@ Result<Message> read(Parts& parts, bool from_router) {
 }
 
 }  // namespace
-
-Context::Context() : transport_(std::make_unique<Transport>()) {}
-Context::~Context() = default;
 
 Socket::Socket(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}
 Socket::Socket(Socket&&) noexcept = default;
@@ -204,10 +168,15 @@ Status Socket::send(const proto::Envelope& envelope, const Payload& payload) {
   const std::string bytes = stamped(envelope);
   LFD_TRY_STATUS(check_size(*transport_, bytes.size(), payload.size()));
   const bool publishes = transport_->type == zmq::socket_type::xpub;
+  hear_of_handshakes(*transport_);
   while (publishes && receive_parts(transport_->zmq)) {
   }  // subscriptions as they come in; nothing is decided by them
   if (send_parts(transport_->zmq, {}, bytes, payload) == Sent::kYes) return {};
-  if (!publishes) return Error(fmt::format("{}: not connected, or too much waits to be sent", transport_->endpoint));
+  if (!publishes) {
+    const std::string why = trouble();
+    return Error(fmt::format("{}: not connected, or too much waits to be sent{}{}", transport_->endpoint,
+                             why.empty() ? "" : ": ", why));
+  }
   // One subscriber's queue is full: let that one miss the message rather than all of them.
   transport_->zmq.set(zmq::sockopt::xpub_nodrop, 0);
   send_parts(transport_->zmq, {}, bytes, payload);
@@ -233,10 +202,16 @@ Status Socket::send_to(const std::string& peer, const proto::Envelope& envelope,
   return Error(fmt::format("{}: no such peer, or it has left", transport_->endpoint));
 }
 
-std::optional<Message> Socket::receive() {
+std::string Socket::trouble() {
+  hear_of_handshakes(*transport_);
+  return transport_->handshakes ? transport_->handshakes->last_failure() : "";
+}
+
+std::optional<Message> Socket::receive(const std::function<bool(const std::string& peer)>& is_known) {
   const bool is_router = transport_->type == zmq::socket_type::router;
+  hear_of_handshakes(*transport_);
   while (auto parts = receive_parts(transport_->zmq)) {
-    auto message = read(*parts, is_router);
+    auto message = read(*parts, *transport_, is_known);
     if (!message) {
       ++transport_->refused;
       warn_now_and_then(*transport_, message.error().message());
@@ -255,22 +230,6 @@ std::optional<Message> Socket::receive() {
     if (auto status = send_to(message->peer, answer); !status) log::debug("{}", status.error().message());
   }
   return std::nullopt;
-}
-
-Result<Socket> bind_router(Context& context, const std::string& endpoint, const Limits& limits) {
-  return open(context, zmq::socket_type::router, endpoint, limits, &zmq::socket_t::bind);
-}
-
-Result<Socket> bind_publisher(Context& context, const std::string& endpoint, const Limits& limits) {
-  return open(context, zmq::socket_type::xpub, endpoint, limits, &zmq::socket_t::bind);
-}
-
-Result<Socket> connect_dealer(Context& context, const std::string& endpoint, const Limits& limits) {
-  return open(context, zmq::socket_type::dealer, endpoint, limits, &zmq::socket_t::connect);
-}
-
-Result<Socket> connect_subscriber(Context& context, const std::string& endpoint, const Limits& limits) {
-  return open(context, zmq::socket_type::sub, endpoint, limits, &zmq::socket_t::connect);
 }
 
 }  // namespace lfd::wire

@@ -26,7 +26,7 @@ constexpr int kSilentHeartbeats = 6;  // then the controller counts as away
 }  // namespace
 
 Result<std::unique_ptr<Daemon>> Daemon::open(DaemonOptions options) {
-  auto context = std::make_unique<wire::Context>();
+  LFD_TRY(auto context, wire::open_context(options.key_file));
   LFD_TRY(wire::Socket control, wire::connect_dealer(*context, options.controller));
   return std::unique_ptr<Daemon>(new Daemon(std::move(options), std::move(context), std::move(control)));
 }

@@ -30,6 +30,7 @@ struct DaemonOptions {
   std::string calibration_hash;           // of the deployment's display, which the controller's must equal
   std::string out;                        // folder of the sink `files`
   std::shared_ptr<MetricServer> metrics;  // may be null
+  std::string key_file;                   // empty: without keys
 };
 
 class Daemon {

@@ -161,7 +161,7 @@ void Daemon::use_images_endpoint(const std::string& endpoint) {
   outbox_.reconnected();
   images_.reset();
   if (endpoint.empty()) return;
-  auto socket = wire::connect_dealer(*context_, endpoint, wire::kImages);
+  auto socket = wire::connect_dealer(*context_, endpoint, wire::kImages, wire::Listener::kDisplay);
   if (!socket) {
     log::error("images: {}", socket.error().message());
     return;

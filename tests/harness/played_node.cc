@@ -13,15 +13,19 @@ namespace {
 
 constexpr auto kBeat = std::chrono::milliseconds(50);
 
-wire::Socket opened(Result<wire::Socket> socket) {
-  LFD_CHECK(socket, socket.error().message());
-  return *std::move(socket);
+template <class T>
+T opened(Result<T> opening) {
+  LFD_CHECK(opening, opening.error().message());
+  return *std::move(opening);
 }
 
 }  // namespace
 
 PlayedNode::PlayedNode(std::string name, const std::string& endpoint, Habits h)
-    : habits(std::move(h)), name_(std::move(name)), control_(opened(wire::connect_dealer(context_, endpoint))) {}
+    : habits(std::move(h)),
+      name_(std::move(name)),
+      context_(opened(wire::open_context(habits.key_file))),
+      control_(opened(wire::connect_dealer(*context_, endpoint))) {}
 
 void PlayedNode::send(const proto::Envelope& envelope) {
   [[maybe_unused]] const Status sent = control_.send(envelope);  // a controller that is away is met again later
@@ -77,8 +81,8 @@ void PlayedNode::take_control(const proto::Envelope& envelope) {
   if (!envelope.has_welcome() || welcome) return;
   welcome = envelope.welcome();
   share_ = welcome->share();
-  state_socket_ = opened(wire::connect_subscriber(context_, welcome->state_endpoint()));
-  bulk_ = opened(wire::connect_dealer(context_, welcome->bulk_endpoint(), wire::kChunks));
+  state_socket_ = opened(wire::connect_subscriber(*context_, welcome->state_endpoint()));
+  bulk_ = opened(wire::connect_dealer(*context_, welcome->bulk_endpoint(), wire::kChunks));
   take_snapshot(welcome->snapshot());
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ class PlayedNode {
     bool prepares = true;          // says at once that it has prepared a scene that is to come
     std::string error = {};        // with which it cannot draw; empty: it can
     std::size_t report_bytes = 0;  // its reports are at least so long
+    std::string key_file = {};     // empty: without keys
   };
 
   PlayedNode(std::string name, const std::string& endpoint) : PlayedNode(std::move(name), endpoint, Habits()) {}
@@ -71,7 +73,7 @@ class PlayedNode {
   void send(const proto::Envelope& envelope);
 
   std::string name_;
-  wire::Context context_;
+  std::unique_ptr<wire::Context> context_;
   wire::Socket control_;
   std::optional<wire::Socket> state_socket_, bulk_;
   std::map<std::string, std::string> partial_;

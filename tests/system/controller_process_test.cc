@@ -180,11 +180,11 @@ TEST(ControllerProcess, DrawsAsManyFramesAsAskedForAndReportsThem) {
   EXPECT_THAT(left.begun, ElementsAre(0, 1, 2));
 }
 
-// Asks for two frames while the nodes play.
-proto::Reply reply_to_two_frames(const RunningController& controller, std::initializer_list<PlayedNode*> nodes) {
+// Asks for frames while the nodes play.
+proto::Reply reply_to_frames(const RunningController& controller, int count, std::initializer_list<PlayedNode*> nodes) {
   ControlClient client = client_of(controller);
   proto::Request request;
-  request.mutable_frames()->set_count(2);
+  request.mutable_frames()->set_count(count);
   const auto id = client.send(request, kPatience);
   EXPECT_TRUE(id);
   std::optional<proto::Reply> reply;
@@ -197,7 +197,7 @@ TEST(ControllerProcess, AnswersWithTheErrorOfANodeThatCannotDraw) {
   const auto controller = start_controller(bench.deployment(kQuick), {"--idle"});
   PlayedNode left("left", controller.endpoint), right("right", controller.endpoint);
   left.habits.error = "out of memory";
-  EXPECT_EQ(reply_to_two_frames(controller, {&left, &right}).error(), "node \"left\": frame 0: out of memory");
+  EXPECT_EQ(reply_to_frames(controller, 2, {&left, &right}).error(), "node \"left\": frame 0: out of memory");
   ASSERT_TRUE(play_until({&left, &right}, [&] { return right.swaps.size() == 2; }));
   for (const proto::SwapFrame& swap : right.swaps) EXPECT_THAT(swap.stale_modules(), ElementsAre(0, 1));
 }
@@ -207,8 +207,8 @@ TEST(ControllerProcess, AnswersWithAnErrorWhereTheReportsFitIntoNoMessage) {
   // The nodes are silent while this process packs so long a report.
   const auto controller = start_controller(bench.deployment("sink: NONE pacing { heartbeat_ms: 1000 }"), {"--idle"});
   PlayedNode left("left", controller.endpoint), right("right", controller.endpoint);
-  left.habits.report_bytes = std::size_t{35} << 20;  // two of them exceed 64 MiB
-  EXPECT_THAT(reply_to_two_frames(controller, {&left, &right}).error(), HasSubstr("ask for fewer frames"));
+  left.habits.report_bytes = std::size_t{3} << 20;  // less than the controller takes; 22 of them exceed 64 MiB
+  EXPECT_THAT(reply_to_frames(controller, 22, {&left, &right}).error(), HasSubstr("ask for fewer frames"));
   left.habits.report_bytes = 0;
   EXPECT_FALSE(status_of(controller).scene().empty());
 }

@@ -6,14 +6,12 @@
 #include <thread>
 
 #include "base/log.h"
-#include "cli/control_client.h"
 #include "proto/frame_files.h"
 #include "proto/pictures/png.h"
 
 namespace lfd::harness {
 namespace {
 
-constexpr auto kAnswerPatience = std::chrono::seconds(5);
 constexpr auto kPause = std::chrono::milliseconds(50);
 
 }  // namespace
@@ -27,19 +25,19 @@ Running run_cluster(const std::filesystem::path& deployment, std::vector<std::st
   return running;
 }
 
-Result<proto::Status> status_at(const std::string& endpoint) {
-  LFD_TRY(ControlClient client, ControlClient::connect(endpoint));
+Result<proto::Status> status_at(const ControllerAt& controller) {
+  LFD_TRY(ControlClient client, ControlClient::connect(controller.endpoint, controller.key_file));
   proto::Request request;
   request.mutable_status();
   LFD_TRY(const proto::Reply reply, client.ask(request, kAnswerPatience));
   return reply.status();
 }
 
-testing::AssertionResult becomes(const std::string& endpoint,
+testing::AssertionResult becomes(const ControllerAt& controller,
                                  const std::function<bool(const proto::Status& status)>& wanted) {
   const auto deadline = Clock::now() + kClusterPatience;
   while (true) {
-    const Result<proto::Status> status = status_at(endpoint);
+    const Result<proto::Status> status = status_at(controller);
     if (!status) return testing::AssertionFailure() << status.error().message();
     if (wanted(*status)) return testing::AssertionSuccess();
     if (Clock::now() >= deadline) {
@@ -74,9 +72,9 @@ std::optional<Picture8> written_picture(const std::filesystem::path& folder, std
   return picture ? std::optional(*picture) : std::nullopt;
 }
 
-testing::AssertionResult draws(const std::string& endpoint, std::uint64_t frames) {
+testing::AssertionResult draws(const ControllerAt& controller, std::uint64_t frames) {
   std::optional<std::uint64_t> first;
-  return becomes(endpoint, [&](const proto::Status& status) {
+  return becomes(controller, [&](const proto::Status& status) {
     const bool whole = status.frame() > 0 && status.stale_modules() == 0;
     if (whole && !first) first = status.frame();
     return first && status.frame() >= *first + frames;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "cli/ctl_requests.h"
 #include "proto/pictures/picture.h"
 #include "proto/wire.pb.h"
 #include "tests/harness/workbench.h"
@@ -31,11 +32,11 @@ struct Running {
 // `lfd run`, as soon as it says that it runs.
 Running run_cluster(const std::filesystem::path& deployment, std::vector<std::string> more = {});
 
-// The status of the controller at an endpoint.
-Result<proto::Status> status_at(const std::string& endpoint);
+// The status of a controller; an endpoint alone stands for one without keys.
+Result<proto::Status> status_at(const ControllerAt& controller);
 
 // Asks for the status until `wanted` is true of it. A failure says what the last one was.
-testing::AssertionResult becomes(const std::string& endpoint,
+testing::AssertionResult becomes(const ControllerAt& controller,
                                  const std::function<bool(const proto::Status& status)>& wanted);
 
 // What `lfd ctl` prints; a failure of the test where it fails.
@@ -48,7 +49,7 @@ proto::Status settled_status(const Running& running);
 std::optional<Picture8> written_picture(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module);
 
 // Waits until all nodes take part and `frames` more frames have been swapped.
-testing::AssertionResult draws(const std::string& endpoint, std::uint64_t frames);
+testing::AssertionResult draws(const ControllerAt& controller, std::uint64_t frames);
 
 // The peer of this name; an empty message where there is none.
 proto::PeerStatus peer_in(const proto::Status& status, const std::string& name);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -271,6 +272,27 @@ TEST(Architecture, NoFileNamesAPlaceOfTheMachine) {
         EXPECT_EQ(line.find(place), std::string::npos) << source.path << ": " << line;
       }
     }
+  }
+}
+
+// Whether a line of code starts a program in a way that goes through a shell or looks for it on the PATH.
+bool calls_a_shell(const std::string& line) {
+  static const std::regex kCall(
+      R"((^|[^A-Za-z0-9_.>])(system|popen|wordexp|execlp?|execle|execv|execvpe?|posix_spawnp?)\s*\(|"(/bin/)?(ba)?sh")");
+  return std::regex_search(line, kCall);
+}
+
+// Programs are started by base/process.cc, with their arguments as they are.
+TEST(Architecture, NoShellIsEverCalled) {
+  for (const char* const line : {"std::system(command)", "  FILE* pipe = popen(text, \"r\");", "::execvp(a, b);",
+                                 "start({\"/bin/sh\", \"-c\", text})", "wordexp (word, &out, 0)"})
+    EXPECT_TRUE(calls_a_shell(line)) << line;
+  for (const char* const line :
+       {"::execve(arguments[0], arguments, environment);", "file_system(path)", "the.system(3)"})
+    EXPECT_FALSE(calls_a_shell(line)) << line;
+  for (const Source& source : sources()) {
+    if (source.folder == "tests") continue;
+    for (const std::string& line : source.lines) EXPECT_FALSE(calls_a_shell(line)) << source.path << ": " << line;
   }
 }
 

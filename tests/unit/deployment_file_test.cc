@@ -174,7 +174,7 @@ TEST_F(DeploymentFile, EveryBadFieldIsNamedWithItsLine) {
       {"sink: FILES", "sink: 7", "17: "},
       {"tcp://127.0.0.1:5550", "127.0.0.1:5550", "19: addresses: control: "},
       {"tcp://127.0.0.1:5551", "tcp://*:5551", "20: addresses: state: \"tcp://*:5551\": peers are told"},
-      {"tcp://127.0.0.1:5550", "tcp://10.0.0.1:5550", "18: addresses: state: \"tcp://127.0.0.1:5551\" cannot be"},
+      {"tcp://127.0.0.1:5550", "tcp://10.0.0.1:5550", "19: addresses: control: \"tcp://10.0.0.1:5550\": plain tcp"},
       {"tcp://127.0.0.1:5551", "tcp://127.0.0.1:5550",
        "20: addresses: state: \"tcp://127.0.0.1:5550\" is the address of control already"},
       {"deadline_ms: 100", "deadline_ms: -1", "22: pacing: deadline_ms: "},

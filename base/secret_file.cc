@@ -1,0 +1,48 @@
+// Modes of files.
+#include "base/secret_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/log.h"
+
+namespace lfd {
+namespace {
+
+bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+}  // namespace
+
+Status create_secret_file(const std::filesystem::path& path, std::string_view content) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (descriptor < 0) return Error(fmt::format("{}: cannot be made: {}", path.string(), std::strerror(errno)));
+  const bool written = write_all(descriptor, content) && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  ::close(descriptor);
+  if (written) return {};
+  ::unlink(path.c_str());
+  return Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+}
+
+Status check_secret_file(const std::filesystem::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0)
+    return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  if ((info.st_mode & 077) == 0) return {};
+  return Error(fmt::format("{}: is open to others (mode {:04o}); a secret key is its owner's alone: chmod 600",
+                           path.string(), info.st_mode & 07777));
+}
+
+}  // namespace lfd

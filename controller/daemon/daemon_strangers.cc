@@ -1,0 +1,73 @@
+// What is asked of whoever wants something of the controller before it is given anything.
+#include <algorithm>
+#include <cctype>
+
+#include "base/log.h"
+#include "controller/daemon/daemon.h"
+#include "controller/rights.h"
+#include "proto/deployment_keys.h"
+#include "proto/endpoint.h"
+
+namespace lfd::controller {
+namespace {
+
+constexpr std::size_t kMostLetters = 64;  // of a peer's name
+constexpr int kHeartbeatsOfDoubt = 2;
+
+// Names stand in logs and statuses, addresses are passed on to nodes: both must be what they seem.
+Status check_words(const proto::Join& join, const Deployment& deployment) {
+  const bool plain = std::ranges::all_of(join.name(), [](unsigned char c) { return c < 128 && std::isprint(c) != 0; });
+  if (!plain || join.name().size() > kMostLetters)
+    return Error(fmt::format("its name has other signs than letters, or more than {}", kMostLetters));
+  if (join.role() != proto::DISPLAY || join.images_endpoint().empty()) return {};
+  if (const Status endpoint = validate_endpoint(join.images_endpoint()); !endpoint)
+    return endpoint.error().within("images");
+  if (const Status reach = check_endpoint(deployment, join.images_endpoint()); !reach)
+    return reach.error().within("images");
+  return {};
+}
+
+const AllowList* allow_list(const wire::Context& context) {
+  return context.keys() == nullptr ? nullptr : &context.keys()->allowed;
+}
+
+}  // namespace
+
+bool Daemon::lets_join(const wire::Message& message, Clock::time_point now) {
+  const proto::Join& join = message.envelope.join();
+  if (!limiter_.admits(message.user.empty() ? message.peer : message.user, now)) {
+    if (limiter_.warns(now)) log::warn("too many joins; {} so far are passed over", limiter_.passed_over());
+    return false;
+  }
+  Status may = check_words(join, options_.deployment);
+  if (may) may = may_join(allow_list(*context_), message.user, join);
+  if (may) return !seems_repeated(message, now);
+  log::warn("a join{} is refused: {}", message.user.empty() ? "" : fmt::format(" of \"{}\"", message.user),
+            may.error().message());
+  proto::Envelope refused;
+  refused.mutable_refused()->set_reason(may.error().message());
+  send(message.peer, refused);
+  return false;
+}
+
+// A process that joins anew has lost its connection, and is silent there. Where it is not, somebody says again what it
+// said once.
+bool Daemon::seems_repeated(const wire::Message& message, Clock::time_point now) {
+  const proto::Join& join = message.envelope.join();
+  const Peer* peer = members_.find(join.name());
+  if (peer == nullptr || !peer->lives() || peer->address == message.peer || peer->process != join.process())
+    return false;
+  const auto doubt = kHeartbeatsOfDoubt * options_.deployment.pacing.heartbeat;
+  if (!peer->last_heard || now - *peer->last_heard >= doubt) return false;
+  const bool still_there = static_cast<bool>(links_.control.send_to(peer->address, proto::Envelope()));
+  if (still_there) log::debug("\"{}\" joins from another place, and is heard where it was", peer->name);
+  return still_there;
+}
+
+Status Daemon::may_ask_for(const wire::Message& message, Clock::time_point now) {
+  Status may = may_ask(allow_list(*context_), message.user, message.envelope.request());
+  if (!may && refusals_.due(now)) log::warn("a request is refused: {}", may.error().message());
+  return may;
+}
+
+}  // namespace lfd::controller

@@ -1,0 +1,189 @@
+// Key files and allow-lists: what is read back, what is refused and where, and who is made a key.
+#include "proto/key_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "base/log.h"
+#include "base/temporary_folder.h"
+#include "calibration/make.h"
+#include "cli/make_keys.h"
+#include "proto/calibration_file.h"
+#include "proto/deployment_keys.h"
+#include "proto/wire/curve.h"
+#include "tests/support/unwrapped.h"
+
+namespace lfd {
+namespace {
+
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using testing_support::unwrapped;
+
+std::string key_letters(char first) {
+  std::string key(40, '0');
+  key[0] = first;
+  return key;
+}
+
+class KeyFiles : public testing::Test {
+ protected:
+  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+  // The error, without the folder, of an allow-list.
+  std::string allow_error(const std::string& text) const {
+    EXPECT_TRUE(write_file(path("allow.textproto"), text));
+    const auto list = read_allow_list(path("allow.textproto"));
+    return list ? "" : list.error().message().substr(folder_.path().string().size() + 1);
+  }
+
+  // A deployment with keys and these nodes.
+  Deployment deployment(const std::string& nodes) const {
+    EXPECT_TRUE(save_calibration(path("desk.textproto"), *make_display("desk")));
+    EXPECT_TRUE(write_file(
+        path("wall.textproto"),
+        "display: \"desk.textproto\" scene { made { name: \"plane\" } } security { keys: \"keys\" } " + nodes));
+    return unwrapped(load_deployment(path("wall.textproto")));
+  }
+
+  TemporaryFolder folder_{"lfd-keys"};
+};
+
+TEST_F(KeyFiles, AKeyIsReadBackAndIsItsOwnersAlone) {
+  const proto::KeyFile key = unwrapped(wire::make_key("left"));
+  ASSERT_TRUE(create_key_file(path("left.key"), key));
+  struct stat info {};
+  ASSERT_EQ(::stat(path("left.key").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0600U);
+  const proto::KeyFile read = unwrapped(read_key_file(path("left.key")));
+  EXPECT_EQ(read.SerializeAsString(), key.SerializeAsString());
+  EXPECT_TRUE(wire::check_pair(read));
+}
+
+TEST_F(KeyFiles, NothingIsOverwritten) {
+  const proto::KeyFile first = unwrapped(wire::make_key("left"));
+  ASSERT_TRUE(create_key_file(path("left.key"), first));
+  const Status second = create_key_file(path("left.key"), unwrapped(wire::make_key("left")));
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().message(), HasSubstr("left.key: cannot be made: File exists"));
+  EXPECT_EQ(unwrapped(read_key_file(path("left.key"))).public_key(), first.public_key());
+}
+
+TEST_F(KeyFiles, AKeyThatOthersCanReadOrChangeIsRefused) {
+  ASSERT_TRUE(create_key_file(path("left.key"), unwrapped(wire::make_key("left"))));
+  for (const mode_t mode : {0640U, 0604U, 0620U, 0602U}) {
+    ASSERT_EQ(::chmod(path("left.key").c_str(), mode), 0);
+    const auto key = read_key_file(path("left.key"));
+    ASSERT_FALSE(key) << mode;
+    EXPECT_THAT(key.error().message(), HasSubstr("open to others")) << mode;
+  }
+  ASSERT_EQ(::chmod(path("left.key").c_str(), 0400), 0);
+  EXPECT_TRUE(read_key_file(path("left.key")));
+}
+
+TEST_F(KeyFiles, ErrorsNameTheFieldAndNeverTheKey) {
+  proto::KeyFile key = unwrapped(wire::make_key("left"));
+  key.set_secret_key("too short to be one");
+  ASSERT_TRUE(create_key_file(path("left.key"), key));
+  const auto read = read_key_file(path("left.key"));
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message(), EndsWith("left.key:5: secret_key: must be 40 letters of Z85"));
+}
+
+TEST_F(KeyFiles, APairThatIsNoneIsFound) {
+  proto::KeyFile key = unwrapped(wire::make_key("left"));
+  key.set_public_key(unwrapped(wire::make_key("other")).public_key());
+  EXPECT_THAT(wire::check_pair(key).error().message(), HasSubstr("not that of secret_key"));
+}
+
+TEST_F(KeyFiles, AnAllowListIsReadBack) {
+  const AllowList list{{{"left", key_letters('a'), {proto::Allowed::NODE}},
+                        {"boss", key_letters('b'), {proto::Allowed::CONTROL, proto::Allowed::STATUS}}}};
+  ASSERT_TRUE(write_allow_list(path("allow.textproto"), list));
+  const AllowList read = unwrapped(read_allow_list(path("allow.textproto")));
+  ASSERT_EQ(read.members.size(), 2U);
+  EXPECT_EQ(read.named("left")->public_key, key_letters('a'));
+  EXPECT_EQ(read.with_key(key_letters('b'))->name, "boss");
+  EXPECT_EQ(rights_text(*read.named("boss")), "CONTROL, STATUS");
+  EXPECT_EQ(read.with_key(key_letters('c')), nullptr);
+  EXPECT_EQ(read.with_right(proto::Allowed::CONTROLLER), nullptr);
+}
+
+TEST_F(KeyFiles, AnAllowListThatCannotBeIsRefusedByItsLine) {
+  const std::string a = fmt::format("allowed {{ name: \"a\" public_key: \"{}\" right: DISPLAY }}\n", key_letters('a'));
+  const auto with = [&](const std::string& name, char first, const std::string& right) {
+    return a + fmt::format("allowed {{ name: \"{}\"\n public_key: \"{}\"\n {} }}", name, key_letters(first), right);
+  };
+  EXPECT_EQ(allow_error(with("b", 'b', "right: NODE")), "");
+  EXPECT_THAT(allow_error(with("a", 'b', "right: NODE")),
+              StartsWith("allow.textproto:2: allowed 1: name: \"a\" is there already"));
+  EXPECT_THAT(allow_error(with("b", 'a', "right: NODE")),
+              StartsWith("allow.textproto:3: allowed 1: public_key: it is the key of \"a\" already"));
+  EXPECT_THAT(allow_error(with("b", '\'', "right: NODE")), HasSubstr("public_key: must be 40 letters of Z85"));
+  EXPECT_THAT(allow_error(with("b", 'b', "")), HasSubstr("right: at least one is needed"));
+  EXPECT_THAT(allow_error(with("b", 'b', "right: NONE")), HasSubstr("right: must be NODE"));
+  EXPECT_THAT(allow_error(with("b", 'b', "right: ANYTHING")), HasSubstr("ANYTHING"));
+  EXPECT_THAT(allow_error(with("b", 'b', "right: DISPLAY")), HasSubstr("DISPLAY is \"a\" already; one alone"));
+  EXPECT_THAT(allow_error(with("../b", 'b', "right: NODE")), HasSubstr("name: 1 to 64 letters"));
+}
+
+TEST_F(KeyFiles, EveryMemberGetsAKeyAndLaterTheMissingOnesAlone) {
+  const auto made = unwrapped(make_keys(deployment("node { name: \"left\" }"), {}));
+  EXPECT_THAT(made, ElementsAre("controller", "display", "left", "operator"));
+  const AllowList before = unwrapped(read_allow_list(path("keys/allow.textproto")));
+  for (const std::string& name : made) {
+    const KeyRing ring = unwrapped(read_key_ring(path("keys/" + name + ".key")));
+    EXPECT_EQ(ring.own.name(), name);
+    EXPECT_TRUE(wire::check_pair(ring.own)) << name;
+    EXPECT_EQ(before.with_key(ring.own.public_key())->name, name);
+  }
+  std::filesystem::remove(path("keys/left.key"));  // it went to its machine
+  const Deployment larger = deployment("node { name: \"left\" } node { name: \"right\" }");
+  EXPECT_THAT(unwrapped(make_keys(larger, {.operators = {"ann"}, .viewers = {"guest"}})),
+              ElementsAre("ann", "guest", "right"));
+  EXPECT_THAT(unwrapped(make_keys(larger, {.operators = {"ann"}, .viewers = {}})), IsEmpty());
+  const AllowList after = unwrapped(read_allow_list(path("keys/allow.textproto")));
+  EXPECT_EQ(after.members.size(), 7U);
+  for (const Allowed& member : before.members) EXPECT_EQ(after.named(member.name)->public_key, member.public_key);
+  EXPECT_FALSE(std::filesystem::exists(path("keys/left.key")));
+  EXPECT_TRUE(after.named("ann")->has(proto::Allowed::CONTROL));
+  EXPECT_TRUE(after.named("guest")->has(proto::Allowed::STATUS));
+  EXPECT_FALSE(after.named("guest")->has(proto::Allowed::CONTROL));
+}
+
+TEST_F(KeyFiles, NoNameIsThatOfTwoMembersAndNoKeyOfNobodyIsTaken) {
+  const auto refusal = [](const Result<std::vector<std::string>>& made) { return made ? "" : made.error().message(); };
+  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"display\" }"), {})),
+              HasSubstr("\"display\" is the name of two members: DISPLAY and NODE"));
+  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {.operators = {"left"}, .viewers = {}})),
+              HasSubstr("\"left\" is the name of two members"));
+  std::filesystem::create_directories(path("keys"));
+  ASSERT_TRUE(create_key_file(path("keys/left.key"), unwrapped(wire::make_key("left"))));
+  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {})), HasSubstr("left.key: cannot be made"));
+}
+
+TEST_F(KeyFiles, AProgramTakesTheKeyOfItsNameUnlessAnotherIsGiven) {
+  Deployment wall = deployment("node { name: \"left\" }");
+  EXPECT_EQ(unwrapped(choose_key_file(wall, "", "left")), path("keys/left.key"));
+  EXPECT_EQ(unwrapped(choose_key_file(wall, "mine.key", "left")), "mine.key");
+  wall.message.clear_security();
+  EXPECT_EQ(unwrapped(choose_key_file(wall, "", "left")), "");
+  EXPECT_FALSE(choose_key_file(wall, "mine.key", "left"));
+}
+
+TEST_F(KeyFiles, TheOperatorIsWhoseKeyIsThere) {
+  ASSERT_TRUE(make_keys(deployment("node { name: \"left\" }"), {.operators = {"ann", "bob"}, .viewers = {"eve"}}));
+  EXPECT_EQ(unwrapped(find_operator_key(path("keys"))), path("keys/ann.key"));
+  std::filesystem::remove(path("keys/ann.key"));
+  EXPECT_EQ(unwrapped(find_operator_key(path("keys"))), path("keys/bob.key"));
+  std::filesystem::remove(path("keys/bob.key"));
+  EXPECT_FALSE(find_operator_key(path("keys")));
+}
+
+}  // namespace
+}  // namespace lfd
