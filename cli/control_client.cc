@@ -23,14 +23,16 @@ Error ControlClient::no_answer() {
 }
 
 Result<std::uint64_t> ControlClient::send(proto::Request request, Clock::duration at_most) {
-  const auto deadline = Clock::now() + at_most;
+  constexpr auto kSure = std::chrono::seconds(1);  // after which a refusal is taken for an answer
+  const auto begin = Clock::now(), deadline = begin + at_most;
   request.set_id(++last_id_);
   proto::Envelope envelope;
   *envelope.mutable_request() = std::move(request);
   while (true) {
     const Status sent = socket_.send(envelope);
     if (sent) return last_id_;
-    if (Clock::now() >= deadline) return no_answer();
+    const bool is_refused = !socket_.trouble().empty() && Clock::now() >= begin + kSure;
+    if (is_refused || Clock::now() >= deadline) return no_answer();
     wire::wait({&socket_}, {}, std::chrono::milliseconds(10));  // connections are made in the background
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "cli/control_client.h"
 
@@ -11,7 +12,8 @@ inline constexpr auto kAnswerPatience = std::chrono::seconds(5);
 
 // Which controller, and as whom.
 struct ControllerAt {
-  ControllerAt(std::string where = {}) : endpoint(std::move(where)) {}  // NOLINT: implicit by design
+  ControllerAt(std::string where = {}, std::string whose_key = {})  // NOLINT: implicit by design
+      : endpoint(std::move(where)), key_file(std::move(whose_key)) {}
 
   std::string endpoint;       // empty: the only one that `lfd run` runs here
   std::string key_file;       // empty: that of the cluster that `lfd run` runs here, if it has keys

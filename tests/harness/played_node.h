@@ -22,8 +22,8 @@ class PlayedNode {
   struct Habits {
     proto::Role role = proto::NODE;
     std::string version = kVersion;
-    std::string calibration_hash;
-    std::string images_endpoint;  // of a display
+    std::string calibration_hash = {};
+    std::string images_endpoint = {};  // of a display
     std::uint64_t process = 1;
     bool beats = true;             // heartbeats
     bool draws = true;             // answers begin with drawn and ready
