@@ -46,6 +46,12 @@ std::vector<std::string> controller_command(const ClusterOptions& options) {
   if (options.no_ao) command.push_back("--no-ao");
   if (options.accept_calibration) command.push_back("--accept-calibration");
   if (options.idle) command.push_back("--idle");
+  if (const ReplayOptions& replay = options.replay; !replay.file.empty()) {
+    add_option(command, "--replay", replay.file.string());
+    add_option(command, "--replay-speed", fmt::format("{}", replay.speed));
+    add_option(command, "--replay-frames", replay.frames);
+    if (replay.any_display) command.push_back("--replay-any-display");
+  }
   return command;
 }
 

@@ -15,6 +15,14 @@
 
 namespace lfd {
 
+// What is shown instead of a scene.
+struct ReplayOptions {
+  std::filesystem::path file;  // a recording; empty: none is shown
+  double speed = 1;            // times the recorded pace; 0: as fast as the nodes draw
+  std::string frames;          // "A-B"; empty: all
+  bool any_display = false;
+};
+
 // What a user can say about a cluster on a command line, beside its deployment file.
 struct ClusterOptions {
   std::filesystem::path deployment;
@@ -26,6 +34,7 @@ struct ClusterOptions {
   bool accept_calibration = false;  // even where it misses the limits of `lfd-calibrate check`
   bool idle = false;                // no frame until frames are asked for
   std::filesystem::path images;     // where the display writes every frame; empty: nowhere
+  ReplayOptions replay;
   std::string log_level = "info";
   bool quiet = false;  // the lines of the children are not printed, only kept
 };

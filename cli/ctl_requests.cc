@@ -6,19 +6,24 @@
 
 namespace lfd {
 
-Result<ControlClient> connect_controller(const ControllerAt& controller) {
+Result<ControllerAt> resolved(ControllerAt controller) {
   RunningCluster cluster;
   if (controller.endpoint.empty()) {
     LFD_TRY(cluster, only_running_cluster());
+    controller.endpoint = cluster.endpoint;
   } else {
     for (const RunningCluster& one : running_clusters()) {
       if (one.endpoint == controller.endpoint) cluster = one;
     }
-    cluster.endpoint = controller.endpoint;
   }
-  const std::string& key_file = controller.key_file.empty() ? cluster.key_file : controller.key_file;
-  LFD_TRY_STATUS(check_endpoint(cluster.endpoint, !key_file.empty(), controller.accept_plain));
-  return ControlClient::connect(cluster.endpoint, key_file);
+  if (controller.key_file.empty()) controller.key_file = cluster.key_file;
+  LFD_TRY_STATUS(check_endpoint(controller.endpoint, !controller.key_file.empty(), controller.accept_plain));
+  return controller;
+}
+
+Result<ControlClient> connect_controller(const ControllerAt& controller) {
+  LFD_TRY(const ControllerAt at, resolved(controller));
+  return ControlClient::connect(at.endpoint, at.key_file);
 }
 
 Result<proto::Reply> ask_controller(const ControllerAt& controller, const proto::Request& request,

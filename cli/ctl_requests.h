@@ -20,6 +20,10 @@ struct ControllerAt {
   bool accept_plain = false;  // without keys, beyond this machine
 };
 
+// With the endpoint and the key file that it comes to. Errors: no cluster, or several, run here; plain tcp beyond this
+// machine that nobody accepts.
+Result<ControllerAt> resolved(ControllerAt controller);
+
 Result<ControlClient> connect_controller(const ControllerAt& controller);
 
 // One request and its reply; a reply that tells an error is an error.

@@ -3,6 +3,7 @@
 
 #include "base/command_line.h"
 #include "cli/cluster.h"
+#include "cli/ctl_requests.h"
 #include "proto/wire.pb.h"
 
 namespace lfd {
@@ -10,6 +11,8 @@ namespace lfd {
 // run, render and view end what they started when a signal comes; ctl and bench just end.
 void add_run_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
+void add_record_command(CLI::App& app, int& exit_code);
+void add_replay_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
 void add_ctl_command(CLI::App& app, int& exit_code);
 void add_keys_command(CLI::App& app, int& exit_code);
@@ -23,6 +26,12 @@ CLI::Option* add_box(CLI::App& app, const std::string& name, std::vector<double>
 
 // DEPLOYMENT, --scene, --display, --roi, --plan, --no-ao, --accept-calibration, --module, --log-level.
 void add_cluster_options(CLI::App& command, ClusterOptions& options);
+
+// Of these: --display, --accept-calibration, --module, --log-level.
+void add_common_cluster_options(CLI::App& command, ClusterOptions& options);
+
+// --controller: where a running one listens; left empty: the only one that `lfd run` runs here.
+void add_controller_options(CLI::App& command, ControllerAt& controller);
 
 // Does what needs a cluster, and answers the exit code. What the options ask and cannot be is found before anything
 // starts: kExitWrongUse.

@@ -15,10 +15,8 @@
 #include "cli/lfd_ctl_pattern.h"
 #include "cli/setting_names.h"
 #include "cli/status_table.h"
-#include "proto/deployment_keys.h"
 #include "cli/status_watch.h"
 #include "cli/watch_table.h"
-#include "proto/endpoint.h"
 #include "proto/settings.h"
 #include "proto/state.h"
 
@@ -50,14 +48,6 @@ Status judge_orientation(const std::vector<double>& wxyz) {
   RegionOfInterest turned;
   turned.world_orientation = glm::dquat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   return validate(turned);
-}
-
-CLI::Validator endpoint_text() {
-  const auto wrong = [](const std::string& text) {
-    const Status valid = validate_endpoint(text);
-    return valid ? std::string() : valid.error().message();
-  };
-  return CLI::Validator(wrong, "tcp://HOST:PORT");
 }
 
 Status print_status(const Arguments& arguments) {
@@ -250,13 +240,7 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   Arguments& a = *arguments;
   CLI::App* ctl = app.add_subcommand("ctl", "Look at a running cluster, or change what it shows");
   ctl->require_subcommand(1);
-  ctl->add_option("--controller", a.controller.endpoint,
-                  "Control endpoint (default: the only cluster that `lfd run` runs here)")
-      ->check(endpoint_text());
-  ctl->add_option(
-      "--key", a.controller.key_file,
-      "Key file, beside allow.textproto (default: that of the cluster that `lfd run` runs here, if it has keys)");
-  ctl->add_flag(kAcceptPlainOption, a.controller.accept_plain, "Talk to a controller without keys beyond this machine");
+  add_controller_options(*ctl, a.controller);
   const auto add = [&](const char* name, const char* description, Status (*what)(const Arguments&)) {
     CLI::App* command = add_command(*ctl, name, description, exit_code, [arguments, what] {
       const Status done = what(*arguments);

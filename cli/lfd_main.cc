@@ -10,6 +10,8 @@ int main(int argc, char** argv) {
   int exit_code = lfd::kExitDone;
   lfd::add_run_command(app, exit_code);
   lfd::add_render_command(app, exit_code);
+  lfd::add_record_command(app, exit_code);
+  lfd::add_replay_command(app, exit_code);
   lfd::add_view_command(app, exit_code);
   lfd::add_ctl_command(app, exit_code);
   lfd::add_keys_command(app, exit_code);

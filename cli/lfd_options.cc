@@ -6,6 +6,8 @@
 #include "base/suggest.h"
 #include "calibration/spaces/roi.h"
 #include "cli/lfd_commands.h"
+#include "proto/deployment_keys.h"
+#include "proto/endpoint.h"
 
 namespace lfd {
 namespace {
@@ -41,7 +43,6 @@ CLI::Option* add_box(CLI::App& app, const std::string& name, std::vector<double>
 void add_cluster_options(CLI::App& command, ClusterOptions& options) {
   command.add_option("DEPLOYMENT", options.deployment, "Deployment file (*.textproto)")->required();
   command.add_option("--scene", options.scene, "Show this glTF file instead of the deployment's scene");
-  command.add_option("--display", options.display, "Use this calibration file instead of the deployment's");
   add_box(command, "--roi", options.roi, Box::kWorld,
           "Region of interest in the world: centre and edge lengths, metres; the whole scene without it");
   command
@@ -50,17 +51,37 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
                   "deployment's")
       ->check(CLI::IsMember({"everything", "needed"}));
   command.add_flag("--no-ao", options.no_ao, "Without ambient occlusion");
+  add_common_cluster_options(command, options);
+}
+
+void add_common_cluster_options(CLI::App& command, ClusterOptions& options) {
+  command.add_option("--display", options.display, "Use this calibration file instead of the deployment's");
   command.add_flag("--accept-calibration", options.accept_calibration,
                    "Show the display even where its calibration misses the limits of `lfd-calibrate check`");
   add_list(command, "--module", options.modules, "Draw these modules alone: numbers and ranges (3,8-11)");
   add_log_level(command, options.log_level)->description("Of all processes: trace, debug, info, warn, error or off");
 }
 
+void add_controller_options(CLI::App& command, ControllerAt& controller) {
+  const auto wrong = [](const std::string& text) {
+    const Status valid = validate_endpoint(text);
+    return valid ? std::string() : valid.error().message();
+  };
+  command
+      .add_option("--controller", controller.endpoint,
+                  "Control endpoint (default: the only cluster that `lfd run` runs here)")
+      ->check(CLI::Validator(wrong, "tcp://HOST:PORT"));
+  command.add_option(
+      "--key", controller.key_file,
+      "Key file, beside allow.textproto (default: that of the cluster that `lfd run` runs here, if it has keys)");
+  command.add_flag(kAcceptPlainOption, controller.accept_plain, "Talk to a controller without keys beyond this machine");
+}
+
 int do_with_cluster(const ClusterOptions& options, const std::function<Status(StopSignals& signals)>& what) {
   StopSignals signals;
   const auto deployment = load_deployment(options);
   if (!deployment) return fail(deployment.error());
-  if (deployment->scene_file) {
+  if (deployment->scene_file && options.replay.file.empty()) {
     if (const Status readable = check_readable(*deployment->scene_file); !readable)
       return fail(readable.error().within("scene"));
   }

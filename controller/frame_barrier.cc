@@ -9,6 +9,11 @@ bool FrameBarrier::may_begin() const {
   return frames_.size() < kInFlight && (frames_.empty() || frames_.back().drawing.empty());
 }
 
+void FrameBarrier::continue_at(std::uint64_t frame) {
+  LFD_CHECK(frame >= next_, "frames ascend");
+  next_ = frame;
+}
+
 std::uint64_t FrameBarrier::begin(const std::vector<std::string>& nodes, Clock::time_point now) {
   LFD_CHECK(may_begin(), "a frame begins only when the barrier lets it");
   LFD_CHECK(!nodes.empty(), "a frame has somebody who draws it");

@@ -22,7 +22,11 @@ class FrameBarrier {
   // Fewer than kInFlight frames are open, and the newest is drawn by all its nodes.
   bool may_begin() const;
 
-  // Opens the next frame for `nodes` (at least one) and returns its number; frames count from 0. may_begin() is true.
+  // The next frame has this number, which is not below that of the frame that would be the next.
+  void continue_at(std::uint64_t frame);
+
+  // Opens the next frame for `nodes` (at least one) and returns its number; frames count from 0 unless they continue
+  // elsewhere. may_begin() is true.
   std::uint64_t begin(const std::vector<std::string>& nodes, Clock::time_point now);
 
   // Events of nodes. What concerns no open frame (it swapped without the node) has no effect. Ready includes drawn.

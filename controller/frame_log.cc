@@ -19,7 +19,7 @@ std::vector<double> matrix_rows(const Affine<Physical, World>& physical_from_wor
 
 void FrameLog::begun(std::uint64_t frame, const RegionOfInterest& roi, const std::string& state_hash,
                      Clock::time_point now) {
-  LFD_CHECK(entries_.empty() || entries_.back().report.frame() + 1 == frame, "frames begin in order");
+  LFD_CHECK(entries_.empty() || entries_.back().report.frame() < frame, "frames begin in order");
   proto::FrameReport report;
   report.set_frame(frame);
   for (const double number : matrix_rows(physical_from_world(roi))) report.add_physical_from_world(number);
@@ -34,9 +34,9 @@ void FrameLog::begun(std::uint64_t frame, const RegionOfInterest& roi, const std
 }
 
 FrameLog::Entry* FrameLog::find(std::uint64_t frame) {
-  if (entries_.empty() || frame < entries_.front().report.frame()) return nullptr;
-  const std::uint64_t index = frame - entries_.front().report.frame();
-  return index < entries_.size() ? &entries_[index] : nullptr;
+  const auto found =
+      std::ranges::lower_bound(entries_, frame, {}, [](const Entry& entry) { return entry.report.frame(); });
+  return found != entries_.end() && found->report.frame() == frame ? &*found : nullptr;
 }
 
 void FrameLog::reported(std::uint64_t frame, const proto::NodeReport& report) {

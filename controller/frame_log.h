@@ -49,7 +49,7 @@ class FrameLog {
   };
   Entry* find(std::uint64_t frame);
 
-  std::deque<Entry> entries_;  // by frame number, without gaps
+  std::deque<Entry> entries_;  // by frame number
   RateWindow swaps_;
   std::vector<std::uint32_t> stale_modules_;
   std::optional<std::uint64_t> last_swapped_;

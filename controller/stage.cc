@@ -47,14 +47,17 @@ Status Stage::check_together(const proto::RenderSettings& render, const RegionOf
   return check_radius(settings.ao, roi);
 }
 
+Status Stage::check_size(const proto::Scene& scene) const {
+  const std::size_t bytes = scene.ByteSizeLong() + display_bytes_;
+  if (bytes <= kMostStateBytes) return {};
+  return Error(fmt::format("{} MiB of instances, materials and measured maps; nodes are sent at most {} MiB at once",
+                           bytes >> 20, kMostStateBytes >> 20));
+}
+
 Result<proto::Update> Stage::preview(const LoadedScene& scene) const {
   LFD_TRY(const RegionOfInterest roi, complete(wished_roi_, scene.data.scene));
   LFD_TRY_STATUS(check_together(render_, roi));
-  const std::size_t bytes = scene.data.scene.ByteSizeLong() + display_bytes_;
-  if (bytes > kMostStateBytes) {
-    return Error(fmt::format("{} MiB of instances, materials and measured maps; nodes are sent at most {} MiB at once",
-                             bytes >> 20, kMostStateBytes >> 20));
-  }
+  LFD_TRY_STATUS(check_size(scene.data.scene));
   proto::Update update;
   *update.mutable_scene() = scene.data.scene;
   *update.mutable_roi() = write_roi(roi);
@@ -110,6 +113,24 @@ std::optional<proto::Update> Stage::set_buffers(std::uint32_t buffers) {
   proto::Update update;
   update.set_buffers(buffers);
   return store_.change(std::move(update));
+}
+
+Result<proto::Update> Stage::show_recorded(proto::Update recorded, std::optional<Assets> assets) {
+  LFD_CHECK(recorded.has_scene() == assets.has_value(), "a scene comes with its assets");
+  LFD_CHECK(recorded.has_scene() || has_scene(), "a show begins with a scene");
+  const proto::RenderSettings& render = recorded.has_render() ? recorded.render() : render_;
+  RegionOfInterest roi = roi_;
+  if (recorded.has_roi()) {
+    LFD_TRY(roi, read_roi(recorded.roi()));
+  }
+  LFD_TRY_STATUS(check_together(render, roi));
+  if (recorded.has_scene()) {
+    LFD_TRY_STATUS(check_size(recorded.scene()));
+    scene_ = LoadedScene{.data = {recorded.scene(), *std::move(assets)}, .animations = {}, .warnings = {}};
+  }
+  roi_ = roi;
+  render_ = render;
+  return store_.change(std::move(recorded));
 }
 
 std::optional<proto::Update> Stage::animate(std::uint64_t frame) {

@@ -35,6 +35,10 @@ class Stage {
   Result<proto::Update> set_pattern(const proto::TestPattern& pattern);  // without a kind: the scene again
   std::optional<proto::Update> set_buffers(std::uint32_t buffers);       // absent: they are those already
 
+  // What was recorded of another show; `assets` come with a scene. Unlike wishes it is taken as it is: an error says
+  // what of it cannot be drawn on this display.
+  Result<proto::Update> show_recorded(proto::Update recorded, std::optional<Assets> assets);
+
   // An update that changes nothing of the state (where the display is), numbered like the others.
   proto::Update number(proto::Update update) { return store_.change(std::move(update)); }
 
@@ -47,6 +51,8 @@ class Stage {
   Result<RegionOfInterest> complete(const proto::RegionOfInterest& wish, const proto::Scene& scene) const;
   // Settings that can be drawn on this display with this region of interest.
   Status check_together(const proto::RenderSettings& render, const RegionOfInterest& roi) const;
+  // Whether the scene and the display fit into one message.
+  Status check_size(const proto::Scene& scene) const;
 
   ScreenSize screen_;
   ImageSize image_;

@@ -2,22 +2,12 @@
 #include "proto/asset_gatherer.h"
 
 #include <algorithm>
-#include <set>
 
 #include "base/hash.h"
 #include "base/log.h"
 
 namespace lfd {
 namespace {
-
-std::set<std::string> hashes_of(const proto::Scene& scene) {
-  std::set<std::string> hashes;
-  for (const auto& instance : scene.instance()) hashes.insert(instance.mesh());
-  for (const auto& material : scene.material()) {
-    if (material.has_texture()) hashes.insert(material.texture().picture());
-  }
-  return hashes;
-}
 
 // As long as `size`, without taking more than twice that, or more than `total`: what somebody says that an asset has
 // costs nothing before it comes.
@@ -29,9 +19,18 @@ void grow(std::string& bytes, std::uint64_t size, std::uint64_t total) {
 
 }  // namespace
 
+std::set<std::string> asset_hashes(const proto::Scene& scene) {
+  std::set<std::string> hashes;
+  for (const auto& instance : scene.instance()) hashes.insert(instance.mesh());
+  for (const auto& material : scene.material()) {
+    if (material.has_texture()) hashes.insert(material.texture().picture());
+  }
+  return hashes;
+}
+
 void AssetGatherer::want(const proto::Scene& scene, const proto::Scene* next) {
-  std::set<std::string> wanted = hashes_of(scene);
-  if (next != nullptr) wanted.merge(hashes_of(*next));
+  std::set<std::string> wanted = asset_hashes(scene);
+  if (next != nullptr) wanted.merge(asset_hashes(*next));
   std::erase_if(assets_, [&](const auto& asset) { return !wanted.contains(asset.first); });
   std::erase_if(missing_, [&](const auto& partial) { return !wanted.contains(partial.first); });
   for (const auto& hash : wanted) {
@@ -40,7 +39,7 @@ void AssetGatherer::want(const proto::Scene& scene, const proto::Scene* next) {
 }
 
 bool AssetGatherer::has_all_of(const proto::Scene& scene) const {
-  return std::ranges::all_of(hashes_of(scene), [&](const std::string& hash) { return assets_.contains(hash); });
+  return std::ranges::all_of(asset_hashes(scene), [&](const std::string& hash) { return assets_.contains(hash); });
 }
 
 std::vector<proto::Want> AssetGatherer::next_requests() {

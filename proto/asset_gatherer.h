@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "proto/wire.pb.h"
 
 namespace lfd {
+
+// Every mesh and picture that the scene names.
+std::set<std::string> asset_hashes(const proto::Scene& scene);
 
 class AssetGatherer {
  public:

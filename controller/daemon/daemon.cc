@@ -48,7 +48,8 @@ Result<std::unique_ptr<Daemon>> Daemon::open(Options options) {
   if (const std::vector<int> unowned = unowned_modules(options.deployment); !unowned.empty())
     log::warn("modules {} stay dark: no node of the deployment draws them", module_ranges(unowned));
   LFD_TRY(Stage stage, Stage::of(options.deployment));
-  if (options.idle) options.deployment.pacing.deadline = {};  // who asks for frames gets whole ones
+  const bool whole_replay = options.replay && options.replay->waits_for_every_node();
+  if (options.idle || whole_replay) options.deployment.pacing.deadline = {};  // who asks for frames gets whole ones
   LFD_TRY(auto context, wire::open_context(options.key_file));
   LFD_TRY(Links links, Links::open(*context, options.deployment.addresses));
   return std::unique_ptr<Daemon>(
@@ -67,14 +68,19 @@ Daemon::Daemon(Options options, Links links, std::unique_ptr<wire::Context> cont
       barrier_(options_.deployment.pacing.deadline),
       pacing_(options_.deployment.pacing.frames_per_second, options_.idle) {}
 
-Status Daemon::run(StopSignals& signals) {
+Status Daemon::start_show() {
+  if (options_.replay) return start_replay();
   const Deployment& deployment = options_.deployment;
   if (deployment.scene_file) {
     loader_.start(*deployment.scene_file, {}, 0);
   } else {
     loader_.start(deployment.message.scene().made(), {}, 0);
   }
-  Status first_scene;
+  return {};
+}
+
+Status Daemon::run(StopSignals& signals) {
+  Status first_scene = start_show();
   next_pulse_ = Clock::now();
   while (!end_) {
     wire::wait({&links_.control, &links_.bulk}, {signals.descriptor(), loader_.descriptor()}, wake_at() - Clock::now());
@@ -100,7 +106,7 @@ Status Daemon::run(StopSignals& signals) {
   }
   links_.state.linger(kLastWords);
   links_.control.linger(kLastWords);
-  return first_scene;
+  return first_scene ? replay_failed_ : first_scene;
 }
 
 void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
@@ -153,12 +159,13 @@ void Daemon::tick(Clock::time_point now) {
   settle_shares(now);
   advance(now);
   serve(now);
+  end_replay(now);
 }
 
 Clock::time_point Daemon::wake_at() const {
   Clock::time_point wake = std::min(next_pulse_, service_.next_alive());
   if (const auto deadline = barrier_.next_deadline()) wake = std::min(wake, *deadline);
-  const auto step = pacing_.next();
+  const auto step = options_.replay ? options_.replay->due_at() : pacing_.next();
   if (step && barrier_.may_begin() && *step > Clock::now()) wake = std::min(wake, *step);
   return wake;
 }

@@ -22,6 +22,7 @@
 #include "controller/pacing.h"
 #include "controller/scene_change.h"
 #include "controller/shares.h"
+#include "controller/replay/replay.h"
 #include "controller/stage.h"
 
 namespace lfd::controller {
@@ -31,6 +32,7 @@ class Daemon {
   struct Options {
     Deployment deployment;
     std::vector<std::string> only_modules;  // empty: all
+    std::optional<Replay> replay = {};      // shown instead of the deployment's scene
     bool idle = false;                      // no frame until frames are asked for; those have no deadline
     std::shared_ptr<MetricServer> metrics;  // told the cluster's metrics; may be null
     std::string key_file;                   // empty: without keys
@@ -61,6 +63,7 @@ class Daemon {
   Daemon(Options options, Links links, std::unique_ptr<wire::Context> context, Stage stage, Assignment assignment);
 
   // daemon.cc: the loop
+  Status start_show();
   void take_control(const wire::Message& message, Clock::time_point now);
   void tick(Clock::time_point now);
   Clock::time_point wake_at() const;
@@ -106,6 +109,16 @@ class Daemon {
   void answer_frames_asked(Clock::time_point now);
   bool has_display_sink() const;
 
+  // daemon_replay.cc: a recorded show instead of a scene
+  Status start_replay();
+  bool is_due(Clock::time_point now) const;  // a frame: by the recording, or by the pace
+  bool waits_for_every_node() const;
+  bool take_cue();  // false: the recording cannot be shown any further
+  void cue_begun(Clock::time_point now);
+  void drawn_of_replay(const Peer& peer, const proto::Ready& ready);
+  void end_replay(Clock::time_point now);  // once all of it is shown
+  Status may_ask(const proto::Request& request) const;
+
   // daemon_requests.cc: control clients
   void take_request(const wire::Message& message, Clock::time_point now);
   Result<bool> start_frames(const wire::Message& message);
@@ -145,6 +158,7 @@ class Daemon {
   std::optional<Clock::time_point> last_swap_;
   Clock::time_point next_pulse_;
   std::optional<std::string> end_;  // why the loop ends
+  Status replay_failed_;            // why the recording could not be shown to its end
 };
 
 }  // namespace lfd::controller

@@ -22,15 +22,16 @@ void Daemon::advance(Clock::time_point now) {
 }
 
 bool Daemon::may_begin(Clock::time_point now) const {
-  if (!stage_.has_scene() || !pacing_.due(now) || !barrier_.may_begin()) return false;
+  if (!stage_.has_scene() || !is_due(now) || !barrier_.may_begin()) return false;
   if (has_display_sink() && members_.display() == nullptr) return false;
   if (drawing(now).empty()) return false;
-  if (!asked_) return true;
+  if (!asked_ && !waits_for_every_node()) return true;
   // Who asks for frames gets whole ones: a node that has not come yet is waited for, one that died is not.
   return std::ranges::all_of(assignment_, [&](const auto& entry) { return is_settled(entry.first, now); });
 }
 
 void Daemon::begin_frame(Clock::time_point now) {
+  if (!take_cue()) return;
   if (const auto update = stage_.animate(barrier_.next_frame())) publish(*update);
   const Assignment drawn_by = drawing(now);
   std::vector<std::string> nodes;
@@ -39,6 +40,7 @@ void Daemon::begin_frame(Clock::time_point now) {
   open_[frame] = drawn_by;
   pacing_.begun(now);
   stats_.begun(frame, now);
+  cue_begun(now);
   log_.begun(frame, stage_.roi(), stage_.store().hash(), now);
   proto::Envelope envelope;
   proto::BeginFrame& begin = *envelope.mutable_begin();
@@ -52,6 +54,7 @@ void Daemon::begin_frame(Clock::time_point now) {
 
 void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
   log_.reported(ready.frame(), ready.report());
+  drawn_of_replay(peer, ready);
   if (ready.report().error().empty()) return barrier_.ready(peer.name, ready.frame());
   barrier_.failed(peer.name, ready.frame());
   const std::string error = fmt::format("node \"{}\": frame {}: {}", peer.name, ready.frame(), ready.report().error());

@@ -43,6 +43,7 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
   const auto start = [&](const Result<bool>& started) {
     if (!started) reply(message.peer, request.id(), started.error());
   };
+  if (const Status may = may_ask(request); !may) return reply(message.peer, request.id(), may);
   switch (request.what_case()) {
     case proto::Request::kStatus: {
       proto::Reply answer;

@@ -10,6 +10,7 @@
 #include "controller/daemon/daemon.h"
 #include "proto/deployment_keys.h"
 #include "proto/key_files.h"
+#include "controller/daemon/replay_options.h"
 #include "proto/settings.h"
 
 namespace lfd::controller {
@@ -25,6 +26,7 @@ struct Arguments {
   bool print_endpoint = false;
   std::string log_level = "info";
   std::string metrics;
+  ReplayArguments replay;
   Daemon::Options options;
 };
 
@@ -49,6 +51,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--key", a.key, "Key file of the controller; default: controller.key of the deployment's keys");
   app.add_flag("--print-endpoint", a.print_endpoint, "Print the control endpoint on standard output, once it is bound");
   app.add_option("--metrics", a.metrics, kMetricsHelp)->type_name("ADDRESS:PORT");
+  add_replay_options(app, a.replay);
   add_log_level(app, a.log_level);
 }
 
@@ -90,6 +93,11 @@ int run(Arguments arguments) {
   raise_descriptor_limit();
   auto deployment = read_deployment(arguments);
   if (!deployment) return fail(deployment.error());
+  if (!arguments.replay.file.empty()) {
+    auto replay = open_replay(arguments.replay, deployment->display);
+    if (!replay) return fail(replay.error());
+    arguments.options.replay = *std::move(replay);
+  }
   arguments.options.deployment = *deployment;
   auto metrics = open_metrics("lfd-controller", arguments.metrics);
   if (!metrics) return fail(metrics.error());
