@@ -59,6 +59,8 @@ const std::vector<Door>& doors() {
       {{"google/protobuf/"}, {"proto/", "bench/stability/message_fields.h"}},
       {{"png.h"}, {"proto/pictures/png.cc"}},
       {{"jpeglib.h", "jerror.h"}, {"proto/pictures/jpeg.cc"}},
+      {{"turbojpeg.h"}, {"proto/images/turbo_jpeg.cc"}},
+      {{"zstd.h"}, {"proto/images/zstd.cc"}},
       {{"Imf", "Imath"}, {"proto/pictures/exr.cc"}},
       {{"yaml-cpp/"}, {"calibration/import/lfdisplay_yaml.cc"}},
       {{"zip.h"}, {"calibration/import/zip_archive.cc"}},
