@@ -1,22 +1,18 @@
-// Frames waiting for their images, and the credits that bound them.
+// Images, swaps and nodes as they come.
 #include "display/frame_assembly.h"
 
 #include <algorithm>
 
 #include "base/log.h"
+#include "proto/images/image_payload.h"
 
 namespace lfd::display {
-namespace {
 
-std::size_t bytes_of(const proto::Image& what) {
-  const std::size_t pixels = std::size_t{what.width_px()} * what.height_px();
-  return pixels * (what.format() == proto::RGBA8 ? 4 : 16);
-}
-
-}  // namespace
-
-void FrameAssembly::configure(int modules, ImageSize image, std::span<const std::uint32_t> owned) {
+void FrameAssembly::configure(int modules, ImageSize image, std::span<const std::uint32_t> owned,
+                              std::size_t waiting_bytes) {
   image_ = image;
+  limits_ = {waiting_bytes, std::max<std::size_t>(std::size_t{16} * image.width * image.height, 1),
+             static_cast<std::uint32_t>(modules)};
   owned_.assign(modules, owned.empty());
   for (const std::uint32_t module : owned) {
     if (module < owned_.size()) owned_[module] = true;
@@ -24,184 +20,174 @@ void FrameAssembly::configure(int modules, ImageSize image, std::span<const std:
   owner_.assign(modules, "");
   shown_.assign(modules, {});
   last_shown_.reset();
-  latest_swap_.reset();
+  latest_swapped_.reset();
+  latest_swap_ = {};
+  for (const auto& [frame, pending] : pending_) {
+    for (const auto& [name, from] : pending.nodes) release(name, from);
+  }
   pending_.clear();
+  std::erase_if(nodes_, [](const auto& entry) { return !entry.second.is_here; });
   for (auto& [name, node] : nodes_) {
-    node.waiting = 0;
-    node.allowed = first_allowance();
     node.latest_frame = 0;
+    node.held.clear();
   }
 }
 
-std::uint32_t FrameAssembly::first_allowance() const {
-  const std::size_t largest = std::size_t{16} * image_.width * image_.height;
-  const std::size_t fit = kWaitingPerNode_bytes / std::max<std::size_t>(largest, 1);
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(fit, 1, std::max<std::size_t>(shown_.size(), 1)));
+Status FrameAssembly::node_came(const std::string& name, Clock::time_point now) {
+  if (!nodes_.contains(name) && nodes_.size() >= kMaxNodes)
+    return Error(fmt::format("more than {} nodes have come", kMaxNodes));
+  // What is not whole is going to be sent again from its beginning.
+  for (auto& [frame, pending] : pending_) {
+    const auto from = pending.nodes.find(name);
+    if (from == pending.nodes.end() || from->second.is_whole()) continue;
+    release(name, from->second);
+    pending.nodes.erase(from);
+  }
+  Node& node = nodes_[name];
+  node.is_here = true;
+  node.has_lost_touch = false;
+  node.credit.start();
+  node.latest_frame = 0;
+  node.connection = ++events_;
+  node.last_sign = now;
+  node.held.clear();
+  return {};
 }
 
-void FrameAssembly::node_came(const std::string& node) {
-  nodes_.try_emplace(node).first->second.allowed = first_allowance();
+void FrameAssembly::node_left(const std::string& name, Clock::time_point now) {
+  const auto node = nodes_.find(name);
+  if (node == nodes_.end()) return;
+  node->second.is_here = false;
+  node->second.last_sign = now;
+  node->second.held.clear();
 }
 
-void FrameAssembly::node_left(const std::string& node) { nodes_.erase(node); }
+bool FrameAssembly::is_past(std::uint64_t frame) const {
+  if (last_shown_ && frame <= *last_shown_) return true;
+  // A swap makes a place for its frame; where there is none any more, the frame has been given up.
+  return latest_swapped_ && frame <= *latest_swapped_ && !pending_.contains(frame);
+}
 
-Status FrameAssembly::check(const Node& node, const proto::Image& what, std::size_t payload_bytes) const {
-  if (node.credit == 0) return Error("it came without credit");
+// What must hold of an image whatever its payload is.
+Status FrameAssembly::check(const proto::Image& what) const {
   if (what.module() >= shown_.size()) return Error(fmt::format("the display has {} modules", shown_.size()));
   if (!proto::BufferKind_IsValid(what.buffer()) || !proto::PixelFormat_IsValid(what.format()) ||
-      what.encoding() != proto::RAW) {
+      !proto::Encoding_IsValid(what.encoding())) {
     return Error("its buffer, format or encoding is unknown");
   }
   if ((what.buffer() == proto::COLOR) != (what.format() == proto::RGBA8))
     return Error("its format is not that of its buffer");
-  if (what.of_images() < 1 || what.of_images() > kMaxImagesPerFrame)
+  if (what.of_images() < 1 || what.of_images() > shown_.size() * kBufferKinds)
     return Error(fmt::format("it is one of {}", what.of_images()));
-  if (is_past(what.frame())) return Error(fmt::format("frame {} is past", *last_shown_));
-  // A swap makes a place for its frame; where there is none any more, the frame has been given up.
-  if (latest_swap_ && what.frame() <= *latest_swap_ && !pending_.contains(what.frame()))
-    return Error("its frame was dropped");
-  if (what.empty()) return payload_bytes == 0 ? Status() : Status(Error("it is empty, yet has pixels"));
+  if (what.empty()) return {};
   const ImageSize size{static_cast<int>(what.width_px()), static_cast<int>(what.height_px())};
-  if (size != image_) {
-    return Error(fmt::format("{} x {} pixels; the display's modules have {} x {}", size.width, size.height,
-                             image_.width, image_.height));
-  }
-  if (payload_bytes != bytes_of(what))
-    return Error(fmt::format("{} bytes; {} make its pixels", payload_bytes, bytes_of(what)));
-  return {};
+  if (size == image_) return {};
+  return Error(fmt::format("{} x {} pixels; the display's modules have {} x {}", what.width_px(), what.height_px(),
+                           image_.width, image_.height));
 }
 
-Status FrameAssembly::image_came(const std::string& name, const proto::Image& what, wire::Payload pixels,
+// The image with its payload, which is kept for those that say that they are the same.
+Result<std::shared_ptr<const ReceivedImage>> FrameAssembly::received(Node& node, const proto::Image& what,
+                                                                     wire::Payload&& payload) const {
+  if ((what.empty() || what.has_same_as_frame()) && !payload.empty())
+    return Error(what.empty() ? "it is empty, yet has pixels" : "it is the same as before, yet has pixels");
+  if (what.empty()) return std::make_shared<const ReceivedImage>(ReceivedImage{what, {}});
+  auto& held = node.held[{what.module(), what.buffer()}];
+  if (what.has_same_as_frame()) {
+    if (held != nullptr && held->what.frame() == what.same_as_frame() && held->what.encoding() == what.encoding())
+      return std::make_shared<const ReceivedImage>(ReceivedImage{what, held->payload});
+    node.has_lost_touch = true;
+    return Error(fmt::format("that of frame {}, as which it is the same, is not here", what.same_as_frame()));
+  }
+  LFD_TRY_STATUS(check_payload(what, payload));
+  held = std::make_shared<const ReceivedImage>(ReceivedImage{what, std::move(payload)});
+  return held;
+}
+
+Status FrameAssembly::image_came(const std::string& name, const proto::Image& what, wire::Payload payload,
                                  Clock::time_point now) {
   const auto within = [&](const Error& error) {
     return error.within(fmt::format("image of frame {}, module {}, buffer {}", what.frame(), what.module(),
                                     static_cast<int>(what.buffer())));
   };
   const auto found = nodes_.find(name);
-  if (found == nodes_.end()) return within(Error("its sender has not said hello"));
+  if (found == nodes_.end() || !found->second.is_here) return within(Error("its sender has not said hello"));
   Node& node = found->second;
-  const Status status = check(node, what, pixels.size());
-  if (node.credit > 0) --node.credit;
-  if (!status) return within(status.error());
+  node.last_sign = now;
+  if (!node.credit.use()) {
+    node.has_lost_touch = true;
+    return within(Error("it came without credit"));
+  }
+  if (const Status status = check(what); !status) return within(status.error());
+  auto image = received(node, what, std::move(payload));
+  if (!image) return within(image.error());
+  node.latest_frame = std::max(node.latest_frame, what.frame());
+  const Status placed = place(name, node, *std::move(image), now);
+  return placed ? placed : within(placed.error());
+}
+
+// Puts an image where it waits for its frame.
+Status FrameAssembly::place(const std::string& name, Node& node, std::shared_ptr<const ReceivedImage> image,
+                            Clock::time_point now) {
+  const proto::Image& what = image->what;
+  if (last_shown_ && what.frame() <= *last_shown_) return Error(fmt::format("frame {} is past", *last_shown_));
+  if (is_past(what.frame())) return Error("its frame was dropped");
+  const std::size_t bytes = image->payload.size();
+  if (!node.credit.fits(limits_, bytes, what.of_images())) return Error("too much of its node waits already");
   if (!pending_.contains(what.frame()) && pending_.size() >= kMaxFrames) {
-    if (what.frame() < pending_.begin()->first) return within(Error("too many later frames wait"));
+    if (what.frame() < pending_.begin()->first) return Error("too many later frames wait");
     drop(pending_.begin());
   }
   Pending& pending = pending_[what.frame()];
-  Module& module = pending.modules[what.module()];
-  if (!module.node.empty() && module.node != name) return within(Error("another node has sent this module"));
-  auto& place = module.images.image[what.buffer()];
-  if (place != nullptr) return within(Error("it has come before"));
-  module.node = name;
-  module.images.frame = what.frame();
-  const std::size_t bytes = std::max<std::size_t>(pixels.size(), 1);
-  place = std::make_shared<const ReceivedImage>(ReceivedImage{what, std::move(pixels)});
   FromNode& from = pending.nodes[name];
+  ShownModule& module = from.modules[what.module()];
+  auto& at = module.image[what.buffer()];
+  if (at != nullptr) return from.connection == node.connection ? Error("it has come before") : Status();
+  module.frame = what.frame();
+  node.credit.waits(bytes, what.empty() ? 1 : pixel_bytes(what), what.of_images());
+  at = std::move(image);
   ++from.here;
+  from.bytes += bytes;
   from.expected = what.of_images();
+  from.connection = node.connection;
   pending.latest_arrival = now;
   owner_[what.module()] = name;
-  node.latest_frame = std::max(node.latest_frame, what.frame());
-  ++node.waiting;
-  const std::size_t fit =
-      std::min<std::size_t>(kWaitingPerNode_bytes / bytes, std::size_t{kFramesPerNode} * what.of_images());
-  node.allowed = std::max(what.of_images(), static_cast<std::uint32_t>(fit));
   return {};
 }
 
-void FrameAssembly::swapped(std::uint64_t frame, std::span<const std::uint32_t> stale_modules) {
+void FrameAssembly::image_passed_over(const std::string& name) {
+  const auto node = nodes_.find(name);
+  if (node != nodes_.end()) node->second.credit.use();
+}
+
+void FrameAssembly::swapped(std::uint64_t frame, std::span<const std::uint32_t> stale_modules, const Owners& owners) {
   if (shown_.empty() || (last_shown_ && frame <= *last_shown_)) return;
-  latest_swap_ = std::max(latest_swap_.value_or(frame), frame);
+  Swap swap{{stale_modules.begin(), stale_modules.end()}, owners, ++events_};
+  if (!latest_swapped_ || frame > *latest_swapped_) {
+    latest_swapped_ = frame;
+    latest_swap_ = swap;
+  }
   // Swaps come in order: those of earlier frames that did not come are lost, and nothing says that they named stale
   // modules.
   for (auto& [number, pending] : pending_) {
-    if (number < frame && !pending.stale) pending.stale.emplace();
+    if (number < frame && !pending.swap) pending.swap = Swap{{}, {}, events_};
   }
   if (!pending_.contains(frame) && pending_.size() >= kMaxFrames) {
     if (frame < pending_.begin()->first) return;
     drop(pending_.begin());
   }
-  pending_[frame].stale.emplace(stale_modules.begin(), stale_modules.end());
-}
-
-FrameAssembly::Fate FrameAssembly::fate(std::uint64_t frame, const Pending& pending,
-                                        const std::set<std::uint32_t>& stale) const {
-  Fate fate = Fate::kWhole;
-  for (std::uint32_t module = 0; module < shown_.size(); ++module) {
-    if (!owned_[module] || stale.contains(module)) continue;
-    const auto sent = pending.modules.find(module);
-    const std::string& owner = sent != pending.modules.end() ? sent->second.node : owner_[module];
-    const auto from = pending.nodes.find(owner);
-    if (from != pending.nodes.end() && from->second.here >= from->second.expected) continue;
-    // Nodes send frame after frame: one that has begun a later frame, or has left, will not complete this one.
-    const auto node = nodes_.find(owner);
-    const bool past = node == nodes_.end() ? !owner.empty() : node->second.latest_frame > frame;
-    if (past) return Fate::kHopeless;
-    fate = Fate::kWaits;
-  }
-  return fate;
-}
-
-std::optional<ShownFrame> FrameAssembly::next_frame(Clock::time_point now) {
-  for (auto at = pending_.begin(); at != pending_.end();) {
-    const auto here = at++;
-    auto& [frame, pending] = *here;
-    const bool patience_is_over = pending.latest_arrival && now - *pending.latest_arrival >= kSwapPatience;
-    if (!pending.stale && !patience_is_over) continue;
-    switch (fate(frame, pending, pending.stale.value_or(std::set<std::uint32_t>()))) {
-      case Fate::kWaits:
-        continue;
-      case Fate::kHopeless:
-        // Without its swap it may still come to be shown with modules marked stale.
-        if (pending.stale) drop(here);
-        continue;
-      case Fate::kWhole:
-        break;
-    }
-    const std::uint64_t number = frame;
-    while (pending_.begin()->first < number) drop(pending_.begin());
-    auto whole = pending_.extract(here);
-    release(whole.mapped());
-    return show(number, std::move(whole.mapped()));
-  }
-  return std::nullopt;
-}
-
-ShownFrame FrameAssembly::show(std::uint64_t frame, Pending&& pending) {
-  ShownFrame result{frame, {}, 0};
-  for (std::uint32_t module = 0; module < shown_.size(); ++module) {
-    const bool stale = !owned_[module] || (pending.stale && pending.stale->contains(module));
-    const auto sent = pending.modules.find(module);
-    if (!stale && sent != pending.modules.end()) shown_[module] = std::move(sent->second.images);
-    shown_[module].stale = stale;
-    if (!stale) ++result.fresh_modules;
-  }
-  last_shown_ = frame;
-  result.modules = shown_;
-  return result;
-}
-
-void FrameAssembly::drop(std::map<std::uint64_t, Pending>::iterator pending) {
-  release(pending->second);
-  pending_.erase(pending);
-  ++dropped_frames_;
-}
-
-void FrameAssembly::release(const Pending& pending) {
-  for (const auto& [name, from] : pending.nodes) {
-    const auto node = nodes_.find(name);
-    if (node != nodes_.end()) node->second.waiting -= std::min(node->second.waiting, from.here);
-  }
+  pending_[frame].swap = std::move(swap);
 }
 
 std::uint32_t FrameAssembly::credit_for(const std::string& name) {
-  const auto found = nodes_.find(name);
-  if (found == nodes_.end() || shown_.empty()) return 0;
-  Node& node = found->second;
-  const std::uint32_t used = node.credit + node.waiting;
-  const std::uint32_t more = node.allowed > used ? node.allowed - used : 0;
-  node.credit += more;
-  return more;
+  const auto node = nodes_.find(name);
+  if (node == nodes_.end() || !node->second.is_here || shown_.empty()) return 0;
+  return node->second.credit.give(limits_);
+}
+
+bool FrameAssembly::has_lost_touch(const std::string& name) const {
+  const auto node = nodes_.find(name);
+  return node != nodes_.end() && node->second.has_lost_touch;
 }
 
 std::size_t FrameAssembly::waiting_images() const {
@@ -210,6 +196,14 @@ std::size_t FrameAssembly::waiting_images() const {
     for (const auto& [name, from] : pending.nodes) count += from.here;
   }
   return count;
+}
+
+std::size_t FrameAssembly::waiting_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& [frame, pending] : pending_) {
+    for (const auto& [name, from] : pending.nodes) bytes += from.bytes;
+  }
+  return bytes;
 }
 
 }  // namespace lfd::display

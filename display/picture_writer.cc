@@ -2,27 +2,66 @@
 #include "display/picture_writer.h"
 
 #include <algorithm>
+#include <mutex>
+#include <set>
 
 #include "base/log.h"
 #include "calibration/display.h"
 #include "proto/frame_files.h"
+#include "proto/images/image_payload.h"
 
 namespace lfd::display {
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr unsigned kMaxWorkers = 8;
-constexpr auto kPatience = std::chrono::seconds(1);  // of a waiting worker, before it looks again
+constexpr auto kPatience = 1s;  // of a waiting worker, before it looks again
+
+struct Job {
+  explicit Job(ShownFrame&& f) : frame(std::move(f)) {}
+  const ShownFrame frame;
+  std::atomic<std::size_t> modules_left = 0;
+};
+
+struct Task {
+  std::shared_ptr<Job> job;
+  std::uint32_t module = 0;
+};
 
 }  // namespace
 
-PictureWriter::PictureWriter(std::filesystem::path folder) : folder_(std::move(folder)), tasks_(kFrames * kMaxModules) {
+struct PictureWriter::Shared {
+  explicit Shared(std::filesystem::path f) : folder(std::move(f)) {}
+
+  void work();
+  void write_module(const Job& job, std::uint32_t module);
+  Status write(const std::filesystem::path& path, const ReceivedImage& image) const;
+  void note_failure(const std::filesystem::path& path, const std::string& message);
+
+  const std::filesystem::path folder;
+  wire::Mailbox<Task> tasks{kFrames * kMaxModules};
+  wire::Mailbox<Written> written{kFrames};
+  std::atomic<bool> ends = false;
+  std::atomic<unsigned> working = 0;  // threads
+  std::atomic<std::uint64_t> failed = 0;
+  std::mutex causes_mutex;
+  std::set<std::string> causes;  // logged already
+};
+
+PictureWriter::PictureWriter(std::filesystem::path folder) : shared_(std::make_shared<Shared>(std::move(folder))) {
   const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1u, kMaxWorkers);
-  for (unsigned i = 0; i < count; ++i) workers_.emplace_back([this] { work(); });
+  shared_->working = count;
+  for (unsigned i = 0; i < count; ++i) workers_.emplace_back([shared = shared_] { shared->work(); });
 }
 
 PictureWriter::~PictureWriter() {
-  ends_ = true;
-  tasks_.close();
+  shared_->ends = true;
+  shared_->tasks.close();
+  const auto until = Clock::now() + kLastWrites;
+  while (shared_->working > 0 && Clock::now() < until) std::this_thread::sleep_for(1ms);
+  const bool ended = shared_->working == 0;
+  for (std::thread& worker : workers_) ended ? worker.join() : worker.detach();
 }
 
 void PictureWriter::write(ShownFrame frame) {
@@ -33,42 +72,53 @@ void PictureWriter::write(ShownFrame frame) {
   job->modules_left = modules;
   ++frames_in_hand_;
   for (std::uint32_t module = 0; module < modules; ++module) {
-    const bool fits = tasks_.put(Task{job, module});
+    const bool fits = shared_->tasks.put(Task{job, module});
     LFD_CHECK(fits, "the queue holds kFrames frames of kMaxModules");
   }
 }
 
 std::optional<Written> PictureWriter::take_written() {
-  auto written = written_.take();
+  auto written = shared_->written.take();
   if (written) --frames_in_hand_;
   return written;
 }
 
-void PictureWriter::work() {
-  while (!ends_) {
-    auto task = tasks_.take_within(kPatience);
+int PictureWriter::descriptor() const { return shared_->written.descriptor(); }
+std::uint64_t PictureWriter::failed_images() const { return shared_->failed; }
+
+void PictureWriter::Shared::work() {
+  while (!ends) {
+    auto task = tasks.take_within(kPatience);
     if (!task) continue;
     write_module(*task->job, task->module);
     if (--task->job->modules_left > 0) continue;
-    const bool fits = written_.put(Written{task->job->frame.frame, task->job->frame.fresh_modules});
+    const bool fits = written.put(Written{task->job->frame.frame, task->job->frame.fresh_modules});
     LFD_CHECK(fits, "no more than kFrames are in hand");
   }
+  --working;
 }
 
-void PictureWriter::write_module(const Job& job, std::uint32_t module) {
+void PictureWriter::Shared::write_module(const Job& job, std::uint32_t module) {
   for (const auto& image : job.frame.modules[module].image) {
-    if (image == nullptr || ends_) continue;
-    const auto path = image_path(folder_, job.frame.frame, module, image->what.buffer());
-    if (const Status status = write_image_file(path, image->what, image->pixels.text()); !status)
-      note_failure(path, status.error().message());
+    if (image == nullptr || ends) continue;
+    const auto path = image_path(folder, job.frame.frame, module, image->what.buffer());
+    const Status status = write(path, *image);
+    if (!status && !ends) note_failure(path, status.error().message());
   }
 }
 
-void PictureWriter::note_failure(const std::filesystem::path& path, const std::string& message) {
-  ++failed_;
+Status PictureWriter::Shared::write(const std::filesystem::path& path, const ReceivedImage& image) const {
+  if (image.what.empty()) return write_image_file(path, image.what, {});
+  const auto pixels = decode_payload(image.what, image.payload);
+  if (!pixels) return pixels.error().within(path.string());
+  return write_image_file(path, image.what, pixels->text());
+}
+
+void PictureWriter::Shared::note_failure(const std::filesystem::path& path, const std::string& message) {
+  ++failed;
   const std::string cause = message.substr(message.rfind(": ") + 1);  // without the path in front
-  const std::lock_guard lock(causes_mutex_);
-  if (!causes_.insert(cause).second) return;
+  const std::lock_guard lock(causes_mutex);
+  if (!causes.insert(cause).second) return;
   log::error("{}; frames go on, further pictures that fail for this reason are only counted", message);
   log::debug("the first of them: {}", path.string());
 }

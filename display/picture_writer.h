@@ -3,8 +3,8 @@
 
 #include <atomic>
 #include <filesystem>
-#include <mutex>
-#include <set>
+#include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,15 +19,18 @@ struct Written {
   int fresh_modules = 0;
 };
 
-// Frames are written whole, begun in the order given; at most kFrames are in hand. What cannot be written (disk full,
-// folder gone) is counted and logged, once per cause; the frame counts as written all the same. One thread uses it.
+// Frames are decoded and written whole, begun in the order given; at most kFrames are in hand. What cannot be decoded
+// or written (disk full, folder gone) is counted and logged, once per cause; the frame counts as written all the same.
+// One thread uses it.
 class PictureWriter {
  public:
   static constexpr std::size_t kFrames = 2;
 
   explicit PictureWriter(std::filesystem::path folder);
-  // Ends within the time that the images now being written need; what waits is left out.
+  // Ends within the time that the images now being written need, at most kLastWrites; what waits is left out. A disk
+  // that hangs cannot be interrupted: its thread is left to itself.
   ~PictureWriter();
+  static constexpr Clock::duration kLastWrites = std::chrono::seconds(1);
   PictureWriter(const PictureWriter&) = delete;
   PictureWriter& operator=(const PictureWriter&) = delete;
 
@@ -37,34 +40,16 @@ class PictureWriter {
   // The next frame that has been written.
   std::optional<Written> take_written();
   // Readable while take_written() has something.
-  int descriptor() const { return written_.descriptor(); }
+  int descriptor() const;
 
-  std::uint64_t failed_images() const { return failed_; }
+  std::uint64_t failed_images() const;
 
  private:
-  struct Job {
-    explicit Job(ShownFrame&& f) : frame(std::move(f)) {}
-    const ShownFrame frame;
-    std::atomic<std::size_t> modules_left = 0;
-  };
-  struct Task {
-    std::shared_ptr<Job> job;
-    std::uint32_t module = 0;
-  };
+  struct Shared;  // with the threads, which may live longer
 
-  void work();
-  void write_module(const Job& job, std::uint32_t module);
-  void note_failure(const std::filesystem::path& path, const std::string& message);
-
-  const std::filesystem::path folder_;
+  std::shared_ptr<Shared> shared_;
   std::size_t frames_in_hand_ = 0;
-  wire::Mailbox<Task> tasks_;
-  wire::Mailbox<Written> written_{kFrames};
-  std::atomic<bool> ends_ = false;
-  std::atomic<std::uint64_t> failed_ = 0;
-  std::mutex causes_mutex_;
-  std::set<std::string> causes_;  // logged already
-  std::vector<std::jthread> workers_;
+  std::vector<std::thread> workers_;
 };
 
 }  // namespace lfd::display

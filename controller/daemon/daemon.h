@@ -1,6 +1,7 @@
 // The controller's loop: what comes in on sockets is told to the deciding classes, what they decide goes out.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -154,7 +155,8 @@ class Daemon {
   Service service_;
   Clock::time_point next_look_{};  // when others are told again
   std::optional<FramesAsked> asked_;
-  std::set<std::string> late_;  // nodes that were missing in the last frame swapped
+  std::set<std::string> late_;                      // nodes that were missing in the last frame swapped
+  std::map<std::string, std::string> said_errors_;  // of nodes: that of the last frame, so that each is logged once
   std::optional<Clock::time_point> last_swap_;
   Clock::time_point next_pulse_;
   std::optional<std::string> end_;  // why the loop ends

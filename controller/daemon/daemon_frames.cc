@@ -55,10 +55,12 @@ void Daemon::begin_frame(Clock::time_point now) {
 void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
   log_.reported(ready.frame(), ready.report());
   drawn_of_replay(peer, ready);
+  const bool is_said = said_errors_[peer.name] == ready.report().error();
+  said_errors_[peer.name] = ready.report().error();
   if (ready.report().error().empty()) return barrier_.ready(peer.name, ready.frame());
   barrier_.failed(peer.name, ready.frame());
   const std::string error = fmt::format("node \"{}\": frame {}: {}", peer.name, ready.frame(), ready.report().error());
-  log::error("{}", error);
+  if (!is_said) log::error("{}", error);
   const bool is_open = !log_.last_swapped() || ready.frame() > *log_.last_swapped();
   if (asked_ && is_open && ready.frame() >= asked_->first && asked_->error.empty()) asked_->error = error;
 }

@@ -61,6 +61,7 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
   welcome.set_images_endpoint(images_endpoint());
   welcome.set_heartbeat_ms(static_cast<std::uint32_t>(deployment.pacing.heartbeat.count()));
   welcome.set_may_drop(has_deadline());
+  *welcome.mutable_stream() = deployment.message.stream();
   welcome.set_sink(static_cast<std::uint32_t>(deployment.message.sink()));
   *welcome.mutable_snapshot()->mutable_state() = stage_.store().state();
   welcome.mutable_snapshot()->set_images_endpoint(images_endpoint());

@@ -64,7 +64,7 @@ void Daemon::wait_for_something(const StopSignals& signals) const {
   for (const auto* socket : {&state_socket_, &bulk_, &images_}) {
     if (*socket) sockets.push_back(&**socket);
   }
-  std::vector<int> descriptors{signals.descriptor()};
+  std::vector<int> descriptors{signals.descriptor(), encoder_.descriptor()};
   for (const RenderThread* thread :
        {drawing_.get(), finishing_.get(), preparation_ ? preparation_->drawing.get() : nullptr}) {
     if (thread != nullptr) descriptors.push_back(thread->descriptor());
@@ -158,7 +158,7 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   sink_ = static_cast<proto::Deployment::Sink>(message.sink());
   hears_state_ = false;
   if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
-  outbox_ = {};
+  restart_images(message.stream());
   gatherer_.ask_again();
   LFD_TRY_STATUS(take_share(message.share(), *display, {message.modules().begin(), message.modules().end()}));
   follower_ = {};

@@ -17,6 +17,7 @@
 #include "proto/state_follower.h"
 #include "proto/wire/socket.h"
 #include "rendernode/node/file_sink.h"
+#include "rendernode/node/frame_encoder.h"
 #include "rendernode/node/image_outbox.h"
 #include "rendernode/node/node_stats.h"
 #include "rendernode/node/render_thread.h"
@@ -54,6 +55,12 @@ class Daemon {
   struct FrameState {
     std::shared_ptr<const proto::State> state;
     std::string hash;
+  };
+  // A frame whose images are being encoded, or wait for the outbox.
+  struct EncodedFrame {
+    std::uint64_t frame = 0;
+    proto::NodeReport report;
+    std::optional<std::vector<OutgoingImage>> images;  // once they are encoded
   };
 
   // A scene that is to come, and the thread that builds and draws it once for nobody.
@@ -98,10 +105,14 @@ class Daemon {
   bool is_overtaken(const Begun& begun) const;
   Status take_events();
   Status take_events_of(RenderThread& thread);
-  bool handed_on(const FrameEvent& event);
   std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
   void say_ready(std::uint64_t frame, proto::NodeReport report);
+  void say_dropped(std::uint64_t frame, proto::NodeReport report);
   void hand_on_waiting();
+  bool hand_on_encoded();
+  bool hand_on_drawn();
+  bool hand_to_encoder(FrameEvent& event);
+  void restart_images(const proto::Stream& stream);
   void use_images_endpoint(const std::string& endpoint);
   void hear_display();
   void send_images();
@@ -137,7 +148,10 @@ class Daemon {
   std::map<std::uint64_t, FrameState> states_;
   ImageOutbox outbox_;
   std::optional<FileSink> files_;
-  std::deque<FrameEvent> waiting_;  // frames whose images wait for the outbox
+  std::deque<FrameEvent> waiting_;  // frames whose images wait for the sink
+  proto::Stream stream_;
+  FrameEncoder encoder_;
+  std::optional<EncodedFrame> encoded_;
 
   NodeStats stats_;
   Service service_;
@@ -147,7 +161,7 @@ class Daemon {
   bool hears_state_ = false;  // a pulse has come: no begin will be missed, so the controller may count on this node
   proto::Deployment::Sink sink_ = proto::Deployment::DISPLAY;
   Clock::duration heartbeat_ = std::chrono::milliseconds(500);
-  Clock::time_point next_words_{}, last_heard_{}, next_hello_{}, next_snapshot_request_{};
+  Clock::time_point next_words_{}, last_heard_{}, next_snapshot_request_{};
   std::uint64_t dropped_frames_ = 0;
 };
 

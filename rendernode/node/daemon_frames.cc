@@ -11,9 +11,6 @@
 namespace lfd::node {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto kHelloPause = 300ms;
 constexpr std::size_t kMostBegun = 8;
 
 // What a thread with a GL context leaves behind when it ends is free, but glibc would keep it.
@@ -93,30 +90,63 @@ Status Daemon::take_events_of(RenderThread& thread) {
 // Without a deadline a frame is ready only once the images of the one before have gone: a slow sink slows the show.
 // With one, its images are dropped: a slow sink costs frames. Either way no more than a few frames wait here.
 void Daemon::hand_on_waiting() {
-  while (!waiting_.empty()) {
-    FrameEvent& event = waiting_.front();
-    if (!handed_on(event)) {
-      if (!may_drop_) return;
-      ++dropped_frames_;
-      event.result->report.add_warning("images dropped: the sink is too slow");
-    }
-    say_ready(event.frame, std::move(event.result->report));
-    waiting_.pop_front();
+  while (hand_on_encoded() || hand_on_drawn()) {
   }
 }
 
-bool Daemon::handed_on(const FrameEvent& event) {
-  if (!event.result->report.error().empty()) return true;
-  switch (sink_) {
-    case proto::Deployment::DISPLAY:
-      if (!outbox_.idle()) return false;
-      outbox_.push(outgoing(event.frame, *event.result));
-      return true;
-    case proto::Deployment::FILES:
-      return files_->put(outgoing(event.frame, *event.result));
-    default:
-      return true;
+// Both say whether something went on.
+bool Daemon::hand_on_encoded() {
+  if (!encoded_) return false;
+  if (!encoded_->images) encoded_->images = encoder_.take();
+  if (!encoded_->images) return false;
+  if (outbox_.idle()) {
+    const ImageOutbox::Load load = outbox_.push(*std::move(encoded_->images));
+    encoded_->report.set_image_bytes(load.bytes);
+    encoded_->report.set_unchanged_images(load.unchanged);
+    say_ready(encoded_->frame, std::move(encoded_->report));
+  } else if (may_drop_) {
+    say_dropped(encoded_->frame, std::move(encoded_->report));
+  } else {
+    return false;
   }
+  encoded_.reset();
+  return true;
+}
+
+bool Daemon::hand_on_drawn() {
+  if (waiting_.empty()) return false;
+  FrameEvent& event = waiting_.front();
+  const bool has_images = event.result->report.error().empty();
+  if (has_images && sink_ == proto::Deployment::DISPLAY) {
+    if (!hand_to_encoder(event)) return false;
+  } else if (has_images && sink_ == proto::Deployment::FILES && !files_->put(outgoing(event.frame, *event.result))) {
+    if (!may_drop_) return false;
+    say_dropped(event.frame, std::move(event.result->report));
+  } else {
+    say_ready(event.frame, std::move(event.result->report));
+  }
+  waiting_.pop_front();
+  return true;
+}
+
+// Where images may be dropped, those that could not be sent are not encoded either; of the others the newest counts.
+bool Daemon::hand_to_encoder(FrameEvent& event) {
+  if (may_drop_ && (!outbox_.idle() || (encoded_ && waiting_.size() > 1))) {
+    say_dropped(event.frame, std::move(event.result->report));
+    return true;
+  }
+  if (encoded_) return false;
+  encoder_.put(stream_, outgoing(event.frame, *event.result));
+  encoded_ = {event.frame, std::move(event.result->report), std::nullopt};
+  return true;
+}
+
+// Nothing of what was begun before is of use.
+void Daemon::restart_images(const proto::Stream& stream) {
+  stream_ = stream;
+  encoder_.give_up();
+  encoded_.reset();
+  outbox_.clear();
 }
 
 std::vector<OutgoingImage> Daemon::outgoing(std::uint64_t frame, const FrameResult& result) const {
@@ -155,6 +185,17 @@ void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
   say(ready);
 }
 
+// The display does not wait for modules that are stale: a frame whose images it will not get is none that is ready.
+void Daemon::say_dropped(std::uint64_t frame, proto::NodeReport report) {
+  ++dropped_frames_;
+  if (sink_ == proto::Deployment::DISPLAY) {
+    report.set_error("images dropped: the display does not take them in time");
+  } else {
+    report.add_warning("images dropped: the sink is too slow");
+  }
+  say_ready(frame, std::move(report));
+}
+
 void Daemon::use_images_endpoint(const std::string& endpoint) {
   if (endpoint == images_endpoint_) return;
   images_endpoint_ = endpoint;
@@ -167,20 +208,15 @@ void Daemon::use_images_endpoint(const std::string& endpoint) {
     return;
   }
   images_ = std::move(*socket);
-  next_hello_ = Clock::now();
   log::info("sends images to {}", endpoint);
 }
 
-// Greets until the first credit comes: a greeting sent while the display is away is lost.
 void Daemon::hear_display() {
   if (!images_) return;
   while (const auto message = images_->receive()) {
-    if (!message->envelope.has_credit()) continue;
-    outbox_.credit(message->envelope.credit().images());
-    next_hello_ = Clock::time_point::max();
+    if (message->envelope.has_credit()) outbox_.credit_came(message->envelope.credit());
   }
-  if (Clock::now() < next_hello_) return;
-  next_hello_ = Clock::now() + kHelloPause;
+  if (!outbox_.greets(Clock::now())) return;
   proto::Envelope hello;
   hello.mutable_hello()->set_node(options_.name);
   if (const Status sent = images_->send(hello); !sent) log::trace("{}", sent.error().message());
@@ -188,12 +224,12 @@ void Daemon::hear_display() {
 
 void Daemon::send_images() {
   if (!images_) return;
-  while (const OutgoingImage* image = outbox_.next()) {
+  while (auto image = outbox_.next()) {
     proto::Envelope envelope;
-    *envelope.mutable_image() = image->header;
+    const std::uint64_t frame = image->header.frame();
+    *envelope.mutable_image() = std::move(image->header);
     envelope.set_session(session_);
     if (!images_->send(envelope, image->payload)) break;
-    const std::uint64_t frame = image->header.frame();
     stats_.sent_image(image->payload.bytes().size());
     outbox_.sent();
     fault::at(fault::kSending, frame);  // the first of its images has gone

@@ -23,7 +23,7 @@ class Cluster {
     assembly_.configure(static_cast<int>(modules_), kOnePixel);
     queues_.resize(nodes_);
     credits_.resize(nodes_);
-    for (std::uint32_t node = 0; node < nodes_; ++node) assembly_.node_came(std::to_string(node));
+    for (std::uint32_t node = 0; node < nodes_; ++node) EXPECT_TRUE(assembly_.node_came(std::to_string(node), kStart));
     for (std::uint64_t frame = 1; frame <= kFrames; ++frame) plan(frame, stale_share, drop_share);
   }
 
@@ -76,7 +76,7 @@ class Cluster {
       credits_[who] += assembly_.credit_for(std::to_string(who));
     }
     // The first credit is for as many images as the display has modules; after that it is two frames.
-    EXPECT_LE(assembly_.waiting_images(), nodes_ * std::max(FrameAssembly::kFramesPerNode * per_node(), modules_));
+    EXPECT_LE(assembly_.waiting_images(), nodes_ * std::max(NodeCredit::kFramesPerNode * per_node(), modules_));
     while (const auto frame = assembly_.next_frame(kStart)) check(*frame), moved = true;
     return moved;
   }
@@ -99,7 +99,7 @@ class Cluster {
       }
       EXPECT_EQ(module.frame < shown.frame, is_stale);
       EXPECT_LE(module.frame, shown.frame);
-      EXPECT_EQ(module.image[proto::COLOR]->pixels.text(), pixel_of(module.frame, m).text());
+      EXPECT_EQ(module.image[proto::COLOR]->payload.text(), pixel_of(module.frame, m).text());
     }
   }
 

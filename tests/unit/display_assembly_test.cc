@@ -17,7 +17,7 @@ struct TwoModules {
   FrameAssembly assembly;
   TwoModules() {
     assembly.configure(2, kOnePixel);
-    assembly.node_came("a");
+    EXPECT_TRUE(assembly.node_came("a", kStart));
     assembly.credit_for("a");
   }
   Status send(std::uint64_t frame, std::uint32_t module, const std::string& node = "a") {
@@ -50,7 +50,7 @@ TEST(DisplayAssembly, WaitsForTheSwapButNotForEver) {
 
 TEST(DisplayAssembly, StaleModulesKeepTheirLastImage) {
   TwoModules display;
-  display.assembly.node_came("b");
+  EXPECT_TRUE(display.assembly.node_came("b", kStart));
   display.assembly.credit_for("b");
   const auto one = [&](const std::string& node, std::uint64_t frame, std::uint32_t module) {
     ASSERT_TRUE(display.assembly.image_came(node, image_of(frame, module, 1), pixel_of(frame, module), kStart));
@@ -70,29 +70,52 @@ TEST(DisplayAssembly, StaleModulesKeepTheirLastImage) {
   EXPECT_FALSE(frame->modules[0].stale);
   EXPECT_EQ(frame->modules[1].frame, 1u);
   EXPECT_TRUE(frame->modules[1].stale);
-  EXPECT_EQ(frame->modules[1].image[proto::COLOR]->pixels.text(), pixel_of(1, 1).text());
+  EXPECT_EQ(frame->modules[1].image[proto::COLOR]->payload.text(), pixel_of(1, 1).text());
 }
 
-TEST(DisplayAssembly, UnchangedModulesThatANodeLeavesOutKeepTheirImageAndAreNotStale) {
+TEST(DisplayAssembly, UnchangedModulesComeWithoutPayloadAndAreNotStale) {
   TwoModules display;
   ASSERT_TRUE(display.send(1, 0));
   ASSERT_TRUE(display.send(1, 1));
   display.assembly.swapped(1, {});
   ASSERT_TRUE(display.assembly.next_frame(kStart));
-  ASSERT_TRUE(display.assembly.image_came("a", image_of(2, 1, 1), pixel_of(2, 1), kStart));
+  proto::Image same = image_of(2, 0, 2);
+  same.set_same_as_frame(1);
+  ASSERT_TRUE(display.assembly.image_came("a", same, {}, kStart));
   display.assembly.swapped(2, {});
+  EXPECT_FALSE(display.assembly.next_frame(kStart)) << "module 1 has yet to come";
+  ASSERT_TRUE(display.send(2, 1));
   const auto frame = display.assembly.next_frame(kStart);
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->fresh_modules, 2);
-  EXPECT_EQ(frame->modules[0].frame, 1u);
-  EXPECT_EQ(frame->modules[1].frame, 2u);
+  EXPECT_EQ(frame->modules[0].frame, 2u);
+  EXPECT_EQ(frame->modules[0].image[proto::COLOR]->payload.text(), pixel_of(1, 0).text());
+  EXPECT_EQ(frame->modules[1].image[proto::COLOR]->payload.text(), pixel_of(2, 1).text());
+}
+
+TEST(DisplayAssembly, WhatIsTheSameAsNothingIsRefused) {
+  TwoModules display;
+  ASSERT_TRUE(display.send(1, 0));
+  proto::Image same = image_of(2, 0, 2);
+  for (const std::uint64_t frame : {0, 2, 7}) {
+    same.set_same_as_frame(frame);
+    const Status status = display.assembly.image_came("a", same, {}, kStart);
+    ASSERT_FALSE(status);
+    EXPECT_THAT(status.error().message(), HasSubstr("is not here"));
+    EXPECT_TRUE(display.assembly.has_lost_touch("a"));
+  }
+  display.assembly.credit_for("a");
+  same.set_same_as_frame(1);
+  const Status both = display.assembly.image_came("a", same, pixel_of(2, 0), kStart);
+  ASSERT_FALSE(both);
+  EXPECT_THAT(both.error().message(), HasSubstr("yet has pixels"));
 }
 
 TEST(DisplayAssembly, ModulesThatNobodyDrawsAreNotWaitedFor) {
   FrameAssembly assembly;
   const std::uint32_t owned[] = {1};
   assembly.configure(3, kOnePixel, owned);
-  assembly.node_came("a");
+  EXPECT_TRUE(assembly.node_came("a", kStart));
   ASSERT_EQ(assembly.credit_for("a"), 3u);
   ASSERT_TRUE(assembly.image_came("a", image_of(0, 1, 1), pixel_of(0, 1), kStart));
   assembly.swapped(0, {});
@@ -133,7 +156,7 @@ TEST(DisplayAssembly, RefusesWhatCannotBeShownAndSaysWhy) {
 TEST(DisplayAssembly, ImagesWithoutCreditAreRefusedSoThatMemoryIsBounded) {
   FrameAssembly assembly;
   assembly.configure(10, kOnePixel);
-  assembly.node_came("a");
+  EXPECT_TRUE(assembly.node_came("a", kStart));
   assembly.credit_for("a");
   int taken = 0;
   for (std::uint64_t frame = 0; frame < 100; ++frame) {
@@ -150,7 +173,7 @@ TEST(DisplayAssembly, LargeFramesGetCreditForOneFrameOnly) {
   FrameAssembly assembly;
   const ImageSize size{2048, 2048};  // 64 MiB of RGBA32F: 8 fit into 512 MiB
   assembly.configure(16, size);
-  assembly.node_came("a");
+  EXPECT_TRUE(assembly.node_came("a", kStart));
   EXPECT_EQ(assembly.credit_for("a"), 8u);
   proto::Image image = image_of(0, 0, 12);
   image.set_width_px(2048);

@@ -1,8 +1,7 @@
-// What a node knows of the state, and what it may send when.
+// What a node knows of the state.
 #include <gtest/gtest.h>
 
 #include "proto/state_follower.h"
-#include "rendernode/node/image_outbox.h"
 
 namespace lfd::node {
 namespace {
@@ -67,34 +66,6 @@ TEST(StateFollower, WhatIsOlderThanTheStateIsPassedOver) {
   EXPECT_EQ(follower.sequence(), 4u);
   EXPECT_EQ(follower.state()->buffers(), 0u);
   EXPECT_FALSE(follower.has_gap());
-}
-
-TEST(ImageOutbox, SendsInOrderAsFarAsCreditsReach) {
-  ImageOutbox outbox;
-  std::vector<OutgoingImage> images(3);
-  for (std::uint32_t i = 0; i < 3; ++i) images[i].header.set_module(i);
-  outbox.push(images);
-  EXPECT_EQ(outbox.next(), nullptr);
-  outbox.credit(2);
-  for (std::uint32_t i = 0; i < 2; ++i) {
-    ASSERT_NE(outbox.next(), nullptr);
-    EXPECT_EQ(outbox.next()->header.module(), i);
-    outbox.sent();
-  }
-  EXPECT_EQ(outbox.next(), nullptr);
-  EXPECT_FALSE(outbox.idle());
-  outbox.credit(1);
-  outbox.sent();
-  EXPECT_TRUE(outbox.idle());
-}
-
-TEST(ImageOutbox, CreditsOfALostDisplayCountNoMore) {
-  ImageOutbox outbox;
-  outbox.credit(5);
-  outbox.push(std::vector<OutgoingImage>(1));
-  outbox.reconnected();
-  EXPECT_EQ(outbox.next(), nullptr);
-  EXPECT_FALSE(outbox.idle());
 }
 
 }  // namespace
