@@ -32,6 +32,12 @@ Status check_key(const char* field, const std::string& key) {
   return Error(fmt::format("{}: must be 40 letters of Z85", field));
 }
 
+Status check_there(const fs::path& path) {
+  std::error_code failure;
+  if (fs::exists(path, failure)) return {};
+  return Error(fmt::format("{}: no such file; `lfd keys make` makes the keys of a deployment", path.string()));
+}
+
 Status check_member(const Allowed& member, const AllowList& before) {
   LFD_TRY_STATUS(check_name(member.name));
   LFD_TRY_STATUS(check_key("public_key", member.public_key));
@@ -70,6 +76,7 @@ const Allowed* AllowList::with_right(Right right) const {
 }
 
 Result<proto::KeyFile> read_key_file(const fs::path& path) {
+  LFD_TRY_STATUS(check_there(path));
   LFD_TRY_STATUS(check_secret_file(path));
   proto::KeyFile key;
   LFD_TRY(const TextPlaces places, read_text_file(path, key));
@@ -85,6 +92,7 @@ Status create_key_file(const fs::path& path, const proto::KeyFile& key) {
 }
 
 Result<AllowList> read_allow_list(const fs::path& path) {
+  LFD_TRY_STATUS(check_there(path));
   proto::AllowList message;
   LFD_TRY(const TextPlaces places, read_text_file(path, message));
   AllowList list;

@@ -39,8 +39,8 @@ inline constexpr Limits kReports{.max_part_bytes = std::int64_t{4} << 20,
                                  .queued_messages = 1000,
                                  .max_sent_part_bytes = kSmallMessages.max_part_bytes,
                                  .queued_to_send = 100};
-// State as the controller sends it; what it takes are subscriptions to everything.
-inline constexpr Limits kUpdates{.max_part_bytes = 256,
+// State as the controller sends it; what it takes are subscriptions to everything, and the words of a handshake.
+inline constexpr Limits kUpdates{.max_part_bytes = 4096,
                                  .queued_messages = kSmallMessages.queued_messages,
                                  .max_sent_part_bytes = kSmallMessages.max_part_bytes};
 // Bulk: chunks of assets; at most 64 MiB wait per peer.

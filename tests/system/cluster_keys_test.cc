@@ -184,7 +184,7 @@ TEST(ClusterKeys, WhatCannotBeIsSaidBeforeAnythingStarts) {
   says_at_once("lfd-controller", {keyed.file.string()}, 1, "is open to others (mode 0644)");
   std::filesystem::remove(keyed.key("display"));
   says_at_once("lfd-display", {keyed.file.string(), "--controller", "tcp://127.0.0.1:1"}, 1,
-               "display.key: cannot be read");
+               "display.key: no such file; `lfd keys make`");
 }
 
 }  // namespace
