@@ -175,6 +175,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   frame->add_flag("--json", a.json, "Print JSON instead of the table");
   add_bench_stability(*bench, exit_code);
   add_bench_ao(*bench, exit_code);
+  add_bench_cluster(*bench, exit_code);
   add_bench_soak(*bench, exit_code);
 }
 

@@ -12,6 +12,7 @@ namespace lfd {
 void end_bench_by_signal(int);
 
 void add_bench_ao(CLI::App& bench, int& exit_code);
+void add_bench_cluster(CLI::App& bench, int& exit_code);
 void add_bench_soak(CLI::App& bench, int& exit_code);
 
 }  // namespace lfd

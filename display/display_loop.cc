@@ -63,7 +63,7 @@ void DisplayLoop::serve(Clock::time_point now) {
   service_.status(fmt::format("{} {}", welcome_ ? "shows the frames of" : "joins", control_.endpoint()));
   if (metrics_ == nullptr) return;
   metrics_->publish(stats_.page(options_.name, {.is_member = welcome_,
-                                                .nodes = peer_of_node_.size(),
+                                                .nodes = senders_.peers().size(),
                                                 .dropped_frames = assembly_.dropped_frames(),
                                                 .refused_images = refused_images_,
                                                 .failed_pictures = writer_ ? writer_->failed_images() : 0}));

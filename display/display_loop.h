@@ -16,7 +16,7 @@
 #include "display/image_peers.h"
 #include "display/picture_writer.h"
 #include "display/senders.h"
-#include "proto/endpoint.h"
+#include "proto/deployment_keys.h"
 #include "proto/wire/socket.h"
 
 namespace lfd::display {

@@ -32,7 +32,7 @@ class Run {
 
   Status kill_for_a_while(std::initializer_list<const char*> names) {
     for (const char* const name : names) cluster_.daemons().kill(name);
-    LFD_TRY_STATUS(cluster_.look_for(seconds(choice_.between(0, 1.2))));
+    LFD_TRY_STATUS(cluster_.look_for(seconds(choice_.between(0, 1.0))));
     for (const char* const name : names) LFD_TRY_STATUS(start(name));
     return {};
   }
@@ -57,14 +57,14 @@ class Run {
   // Shorter or longer than the 0.6 s after which a peer is out.
   Status stop_for_a_while(const char* name) {
     cluster_.daemons().at(name).signal(SIGSTOP);
-    const Status looked = cluster_.look_for(seconds(choice_.between(0.1, 1.5)));
+    const Status looked = cluster_.look_for(seconds(choice_.between(0.1, 1.2)));
     cluster_.daemons().at(name).signal(SIGCONT);
     return looked;
   }
 
   Status slow_node() {
     LFD_TRY_STATUS(cluster_.daemons().start("right", {.environment = {{"LFD_SLOWDOWN", "500"}}}));
-    LFD_TRY_STATUS(cluster_.look_for(2s));
+    LFD_TRY_STATUS(cluster_.look_for(1500ms));
     return start("right");
   }
 

@@ -7,7 +7,7 @@
 
 #include "base/log.h"
 #include "bench/soak/fault_runs.h"
-#include "bench/soak/process_facts.h"
+#include "bench/common/process_facts.h"
 #include "bench/soak/soak_cluster.h"
 
 namespace lfd::bench {
@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kStartPatience = 60s;                   // of a software rasteriser on a loaded machine
-constexpr auto kQuiet = 300ms;                         // frames between two faults
+constexpr auto kQuiet = 200ms;                         // frames between two faults
 constexpr double kBaselineAt = 0.1, kHarshFrom = 0.7;  // shares of the whole
 // That live through all gentle faults.
 constexpr std::array kWatched{"controller", "display", "left"};

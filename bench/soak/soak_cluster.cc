@@ -1,16 +1,13 @@
 // Files, processes and looking.
 #include "bench/soak/soak_cluster.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "base/file.h"
 #include "base/log.h"
+#include "bench/common/free_endpoint.h"
 #include "calibration/make.h"
 #include "controller/scene/made/made_scenes.h"
 #include "controller/scene/scene_file.h"
@@ -31,22 +28,6 @@ constexpr auto kAnswerPatience = 300ms;  // the controller may be stopped
 constexpr auto kScenePatience = 30s;
 constexpr std::uint64_t kFramesInHand = 4;  // of a display's writers, and one more
 
-// A port of the loopback interface that is free at the moment.
-int free_port() {
-  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
-  socklen_t length = sizeof address;
-  const bool bound = ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), length) == 0 &&
-                     ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &length) == 0;
-  ::close(descriptor);
-  LFD_CHECK(bound, "a port of the loopback interface is free");
-  return ::ntohs(address.sin_port);
-}
-
-std::string address() { return fmt::format("tcp://127.0.0.1:{}", free_port()); }
-
 }  // namespace
 
 Status SoakCluster::write_files() {
@@ -57,8 +38,8 @@ Status SoakCluster::write_files() {
     LFD_TRY(const LoadedScene scene, scene::make_scene("ribbed-shell", seed));
     LFD_TRY_STATUS(scene::write_glb(folder_.path() / file, scene.data));
   }
-  control_ = address();
-  state_ = address();
+  control_ = free_endpoint();
+  state_ = free_endpoint();
   // Heartbeats of 100 ms: a process that is silent for 0.6 s is out.
   return write_file(
       folder_.path() / "soak.textproto",
@@ -67,7 +48,7 @@ Status SoakCluster::write_files() {
           "node {{ name: \"left\" }} node {{ name: \"right\" }} node {{ name: \"reserve\" spare: true }}\n"
           "pacing {{ frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 }} sink: DISPLAY\n"
           "addresses {{ control: \"{}\" state: \"{}\" bulk: \"{}\" images: \"{}\" }}\n",
-          control_, state_, address(), address()));
+          control_, state_, free_endpoint(), free_endpoint()));
 }
 
 Result<std::unique_ptr<SoakCluster>> SoakCluster::start(StopSignals& signals) {

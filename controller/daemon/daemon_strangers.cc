@@ -65,7 +65,7 @@ bool Daemon::seems_repeated(const wire::Message& message, Clock::time_point now)
 }
 
 Status Daemon::may_ask_for(const wire::Message& message, Clock::time_point now) {
-  Status may = may_ask(allow_list(*context_), message.user, message.envelope.request());
+  Status may = controller::may_ask(allow_list(*context_), message.user, message.envelope.request());
   if (!may && refusals_.due(now)) log::warn("a request is refused: {}", may.error().message());
   return may;
 }

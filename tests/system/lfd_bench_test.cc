@@ -1,7 +1,8 @@
-// lfd bench frame and ao to their ends: what they print and leave.
+// lfd bench frame, ao and cluster to their ends: what they print and leave.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -70,6 +71,21 @@ TEST(LfdBench, AoSaysWhatWasMeant) {
   };
   EXPECT_THAT(lines_of("--method", "sphre"), testing::HasSubstr("did you mean sphere?"));
   EXPECT_THAT(lines_of("--radius", "0"), testing::HasSubstr("0.001 to 10"));
+}
+
+TEST(LfdBench, ClusterLeavesATableAndAPlot) {
+  const Workbench bench;
+  const auto out = bench.folder() / "cluster";
+  const auto lfd = start_program("lfd", {"bench", "cluster", "--nodes", "1,2", "--modules", "4", "--frames", "20",
+                                         "--scene", "plane,ribbed-shell", "--out", out.string()});
+  const auto exit = lfd->wait(kClusterPatience);
+  ASSERT_TRUE(exit && exit->succeeded()) << testing::PrintToString(lfd->lines());
+  EXPECT_TRUE(std::filesystem::is_regular_file(out / "cluster.svg"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(out / "cluster.md"));
+  const std::string csv = *read_file(out / "cluster.csv");
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 5) << csv;
+  EXPECT_THAT(csv, testing::HasSubstr("\nnodes,4,2,\"plane\","));
+  EXPECT_THAT(csv, testing::HasSubstr("\nscenes,4,2,\"ribbed-shell\","));
 }
 
 }  // namespace

@@ -140,11 +140,11 @@ TEST(Rights, WithoutKeysEverybodyMay) {
 }
 
 TEST(Membership, DisplaysOfEverNewNamesAreForgotten) {
-  Membership members({.version = "1", .calibration_hash = "", .nodes = {"left"}, .patience = 3s});
+  Membership members({.version = "1", .calibration_hash = "", .nodes = {"left"}, .patience = 3s, .heartbeat = 500ms});
   for (int i = 0; i < 1000; ++i) {
     proto::Join join = join_of(proto::DISPLAY, fmt::format("display {}", i));
     join.set_version("1");
-    ASSERT_TRUE(members.join(join, fmt::format("address {}", i)));
+    ASSERT_TRUE(members.join(join, fmt::format("address {}", i), {}));
     members.leave(fmt::format("address {}", i));
     members.expire(kStart + i * 1ms);
   }

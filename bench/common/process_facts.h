@@ -13,7 +13,7 @@ struct ProcessFacts {
 // Absent where there is no such process (any more).
 std::optional<ProcessFacts> facts_of(int process);
 
-// Processor time that it has used, user and system together, in seconds; absent likewise.
+// Processor time that all its threads have used, in seconds; absent likewise.
 std::optional<double> processor_time_s(int process);
 
 }  // namespace lfd::bench

@@ -1,13 +1,10 @@
 // Files of /proc.
-#include "bench/soak/process_facts.h"
+#include "bench/common/process_facts.h"
 
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <sstream>
-#include <string>
 
 #include "base/log.h"
 
@@ -28,17 +25,18 @@ std::optional<ProcessFacts> facts_of(int process) {
   return facts;
 }
 
+// The first number of a thread's schedstat are nanoseconds on a processor; stat counts hundredths of a second alone.
 std::optional<double> processor_time_s(int process) {
-  std::ifstream stat(fmt::format("/proc/{}/stat", process));
-  const std::string text((std::istreambuf_iterator<char>(stat)), {});
-  const auto name_end = text.rfind(')');
-  if (name_end == std::string::npos) return std::nullopt;
-  std::istringstream fields(text.substr(name_end + 1));
-  std::string skipped;
-  for (int field = 3; field < 14; ++field) fields >> skipped;
-  double user = 0, system = 0;
-  if (!(fields >> user >> system)) return std::nullopt;
-  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  double nanoseconds = 0;
+  std::error_code gone;
+  for (fs::directory_iterator entry(fmt::format("/proc/{}/task", process), gone), end; !gone && entry != end;
+       entry.increment(gone)) {
+    double of_thread = 0;
+    if (!(std::ifstream(entry->path() / "schedstat") >> of_thread)) return std::nullopt;
+    nanoseconds += of_thread;
+  }
+  if (gone) return std::nullopt;
+  return nanoseconds / 1e9;
 }
 
 }  // namespace lfd::bench

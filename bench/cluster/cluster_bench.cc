@@ -1,0 +1,152 @@
+// One cluster after the other.
+#include "bench/cluster/cluster_bench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/temporary_folder.h"
+#include "bench/common/daemons.h"
+#include "bench/common/free_endpoint.h"
+#include "bench/common/process_facts.h"
+#include "calibration/make.h"
+#include "cli/control_client.h"
+#include "controller/scene/made/made_scenes.h"
+#include "proto/calibration_file.h"
+#include "proto/deployment_file.h"
+
+namespace lfd::bench {
+namespace {
+
+constexpr auto kPatience = std::chrono::minutes(5);  // for all frames of one cluster, on a loaded machine
+constexpr int kWarmUp = 20;                          // frames: the first ones compile shaders
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+Status write_files(const TemporaryFolder& folder, const ClusterRow& row, ImageSize image, const std::string& control) {
+  LFD_TRY(DisplayCalibration display, make_display("c80", row.modules));
+  display.image = image;
+  LFD_TRY_STATUS(save_calibration(folder.path() / "display.textproto", display));
+  std::string text = fmt::format(
+      "name: \"cluster\" display: \"display.textproto\" scene {{ made {{ name: \"{}\" seed: 1 }} }} sink: DISPLAY\n"
+      "accept_calibration: true addresses {{ control: \"{}\" }}\n",
+      row.scene, control);
+  for (int node = 0; node < row.nodes; ++node) text += fmt::format("node {{ name: \"node-{}\" }}\n", node);
+  return write_file(folder.path() / "cluster.textproto", text);
+}
+
+Result<proto::Reply> ask_frames(ControlClient& client, int count) {
+  proto::Request request;
+  request.mutable_frames()->set_count(static_cast<std::uint32_t>(count));
+  return client.ask(request, kPatience);
+}
+
+Result<double> scene_bytes(const std::string& name) {
+  LFD_TRY(const LoadedScene scene, scene::make_scene(name, 1));
+  double bytes = 0;
+  for (const auto& [hash, asset] : scene.data.assets) bytes += static_cast<double>(asset->size());
+  return bytes;
+}
+
+struct Sample {
+  double processor_s = 0;
+  std::uint64_t published = 0;
+  Clock::time_point at;
+};
+
+Result<Sample> sample(ControlClient& client, int controller) {
+  proto::Request request;
+  request.mutable_status();
+  LFD_TRY(const proto::Reply reply, client.ask(request, kPatience));
+  const auto processor = processor_time_s(controller);
+  if (!processor) return Error("the controller's processor time cannot be read");
+  return Sample{*processor, reply.status().published_bytes(), Clock::now()};
+}
+
+void fill(ClusterRow& row, const proto::Reply& frames, const Sample& before, const Sample& after) {
+  const double count = frames.frame_size();
+  std::vector<double> shown, swapped;
+  double reports = 0;
+  for (const proto::FrameReport& frame : frames.frame()) {
+    shown.push_back(frame.begin_to_shown_ms());
+    swapped.push_back(frame.begin_to_swap_ms());
+    for (const proto::NodeReport& node : frame.node()) reports += static_cast<double>(node.ByteSizeLong());
+  }
+  row.shown_median_ms = percentile(shown, 0.5);
+  row.shown_99_ms = percentile(shown, 0.99);
+  row.swap_median_ms = percentile(swapped, 0.5);
+  row.swap_99_ms = percentile(swapped, 0.99);
+  row.frames_per_s = count / std::chrono::duration<double>(after.at - before.at).count();
+  row.controller_us = 1e6 * (after.processor_s - before.processor_s) / count;
+  row.state_bytes = static_cast<double>(after.published - before.published) / count;
+  row.report_bytes = reports / count;
+}
+
+Result<ClusterRow> measure(ClusterRow row, const ClusterBenchOptions& options, StopSignals& signals) {
+  const TemporaryFolder folder("lfd-cluster");
+  const std::string control = free_endpoint();
+  LFD_TRY_STATUS(write_files(folder, row, options.image, control));
+  LFD_TRY(row.scene_bytes, scene_bytes(row.scene));
+  Daemons daemons(own_folder(), folder.path() / "cluster.textproto", folder.path() / "shown");
+  LFD_TRY(Process* const controller, daemons.start("controller", {.more = {"--idle", "--log-level", "warn"}}));
+  LFD_TRY_STATUS(daemons.start("display", {.more = {"--controller", control}}));
+  for (int node = 0; node < row.nodes; ++node) LFD_TRY_STATUS(daemons.start(fmt::format("node-{}", node)));
+  LFD_TRY(ControlClient client, ControlClient::connect(control));
+  LFD_TRY(const proto::Reply first, ask_frames(client, kWarmUp));
+  for (const proto::NodeReport& node : first.frame(0).node())
+    row.image_bytes += static_cast<double>(node.image_bytes());
+  if (signals.take()) return Error("ended by a signal");
+  LFD_TRY(const Sample before, sample(client, controller->id()));
+  LFD_TRY(const proto::Reply frames, ask_frames(client, options.frames));
+  LFD_TRY(const Sample after, sample(client, controller->id()));
+  fill(row, frames, before, after);
+  LFD_TRY_STATUS(client.quit(kPatience));
+  return row;
+}
+
+}  // namespace
+
+Line ClusterTable::controller_line(int modules) const {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const ClusterRow& row : rows) {
+    if (row.modules != modules) continue;
+    n += 1;
+    x += row.nodes;
+    y += row.controller_us;
+    xx += row.nodes * row.nodes;
+    xy += row.nodes * row.controller_us;
+  }
+  const double spread = n * xx - x * x;
+  if (spread <= 0) return {n > 0 ? y / n : 0, 0};
+  const double slope = (n * xy - x * y) / spread;
+  return {(y - slope * x) / n, slope};
+}
+
+Result<ClusterTable> cluster_bench(const ClusterBenchOptions& options, StopSignals& signals,
+                                   const std::function<void(const ClusterRow&)>& progress) {
+  ClusterTable table{.options = options, .rows = {}, .by_scene = {}};
+  const auto add = [&](std::vector<ClusterRow>& rows, int nodes, int modules, const std::string& scene) -> Status {
+    auto row = measure({.nodes = nodes, .modules = modules, .scene = scene}, options, signals);
+    if (!row) return row.error().within(fmt::format("{} nodes, {} modules, {}", nodes, modules, scene));
+    progress(*row);
+    rows.push_back(*std::move(row));
+    return {};
+  };
+  for (const int modules : options.modules) {
+    for (const int nodes : options.nodes) LFD_TRY_STATUS(add(table.rows, nodes, modules, options.scenes.front()));
+  }
+  if (options.scenes.size() < 2) return table;
+  const std::size_t middle = options.nodes.size() / 2;
+  for (const std::string& scene : options.scenes)
+    LFD_TRY_STATUS(add(table.by_scene, options.nodes[middle], options.modules.front(), scene));
+  return table;
+}
+
+}  // namespace lfd::bench

@@ -1,0 +1,61 @@
+// Virtual clusters of many nodes on one machine: how long frames take from begin to shown, and what they cost the
+// controller.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/signals.h"
+#include "calibration/spaces/pixel.h"
+
+namespace lfd::bench {
+
+struct ClusterBenchOptions {
+  std::vector<int> nodes{1, 2, 4, 8, 16};
+  std::vector<int> modules{64, 80, 128};
+  std::vector<std::string> scenes{"plane"};  // made ones; the first is shown to every cluster, the others to one
+  int frames = 500;
+  ImageSize image{16, 12};  // of a module: what is measured is the cluster, not the drawing
+};
+
+struct ClusterRow {
+  int nodes = 0, modules = 0;
+  std::string scene;
+  double scene_bytes = 0;  // of the scene's meshes and pictures
+  double frames_per_s = 0;
+  double shown_median_ms = 0, shown_99_ms = 0;  // begin to shown
+  double swap_median_ms = 0, swap_99_ms = 0;    // begin to swap
+  // The controller's, per frame.
+  double controller_us = 0;  // processor time
+  double state_bytes = 0;    // published; every node and the display get them
+  double report_bytes = 0;   // of all nodes together
+  // Payloads of all nodes together, of the first frame: later ones of a scene at rest are not sent again.
+  double image_bytes = 0;
+};
+
+// cost = constant + per_node * nodes, by least squares.
+struct Line {
+  double constant = 0, per_node = 0;
+};
+
+struct ClusterTable {
+  ClusterBenchOptions options;
+  std::vector<ClusterRow> rows;      // of the first scene
+  std::vector<ClusterRow> by_scene;  // of the other scenes, and of the first with the same cluster
+
+  // The controller's processor time over the number of nodes.
+  Line controller_line(int modules) const;
+};
+
+// Each cluster runs in a temporary folder, with the programs beside this one; it draws as fast as it can, a scene at
+// rest. Errors: a cluster that does not run; a signal.
+Result<ClusterTable> cluster_bench(const ClusterBenchOptions& options, StopSignals& signals,
+                                   const std::function<void(const ClusterRow&)>& progress);
+
+std::string text_of(const ClusterTable& table);
+std::string csv_of(const ClusterTable& table);
+std::string svg_of(const ClusterTable& table);
+
+}  // namespace lfd::bench
