@@ -29,6 +29,8 @@ Json node_json(const proto::NodeReport& node) {
             {"passes", Json::array()},
             {"left_out", Json::array()},
             {"occlusion_choice", node.occlusion_choice()},
+            {"image_bytes", node.image_bytes()},
+            {"unchanged_images", node.unchanged_images()},
             {"warnings", std::vector<std::string>(node.warning().begin(), node.warning().end())}};
   for (const proto::PassTime& pass : node.pass()) json["passes"].push_back(pass_json(pass));
   for (const proto::LeftOut& left_out : node.left_out()) {

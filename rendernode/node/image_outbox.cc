@@ -67,11 +67,8 @@ void ImageOutbox::sent() {
 }
 
 bool ImageOutbox::greets(Clock::time_point now) {
-  const bool is_hungry = known_ && credit_ == 0 && !idle();
-  if (!is_hungry) hungry_since_.reset();
-  if (is_hungry && !hungry_since_) hungry_since_ = now;
-  if (known_ && (!is_hungry || now - *hungry_since_ < kHelloPause)) return false;
-  if (greeted_at_ && now - *greeted_at_ < kHelloPause) return false;
+  const bool is_content = known_ && (credit_ > 0 || idle());
+  if (greeted_at_ && now - *greeted_at_ < (is_content ? kContentHelloPause : kHelloPause)) return false;
   greeted_at_ = now;
   return true;
 }

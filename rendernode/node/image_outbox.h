@@ -27,6 +27,7 @@ struct OutgoingImage {
 class ImageOutbox {
  public:
   static constexpr Clock::duration kHelloPause = std::chrono::milliseconds(300);
+  static constexpr Clock::duration kContentHelloPause = std::chrono::seconds(1);
 
   // What a frame costs as things are: bytes of payloads, and images that travel without one since they did not change.
   struct Load {
@@ -53,8 +54,9 @@ class ImageOutbox {
   std::optional<OutgoingImage> next() const;
   void sent();
 
-  // Whether the display has to be greeted now; the greeting counts as sent. Greeted are those that have not given any
-  // credit yet, and those that give none while images wait: a display that knows this node passes that over.
+  // Whether the display has to be greeted now; the greeting counts as sent. Often as long as it has given no credit, or
+  // images wait for some, and else now and then: a display that knows the connection passes that over, and one that
+  // does not has lost what was sent.
   bool greets(Clock::time_point now);
 
  private:
@@ -71,7 +73,7 @@ class ImageOutbox {
   std::map<Place, Held> held_;        // by the display, as far as this node knows
   std::uint64_t credit_ = 0;
   bool known_ = false;  // to the display
-  std::optional<Clock::time_point> hungry_since_, greeted_at_;
+  std::optional<Clock::time_point> greeted_at_;
 };
 
 }  // namespace lfd::node
