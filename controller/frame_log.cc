@@ -2,6 +2,7 @@
 #include "controller/frame_log.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/check.h"
 
@@ -29,8 +30,10 @@ void FrameLog::begun(std::uint64_t frame, const RegionOfInterest& roi, const std
   report.mutable_position_origin()->set_z(origin.z);
   report.set_roi_diagonal(roi.diagonal_m());
   report.set_state_hash(state_hash);
-  entries_.push_back({std::move(report), now, false});
-  if (entries_.size() > kRemembered) entries_.pop_front();
+  entries_.push_back({std::move(report), now});
+  if (entries_.size() <= kRemembered) return;
+  report_bytes_ -= entries_.front().report_bytes;
+  entries_.pop_front();
 }
 
 FrameLog::Entry* FrameLog::find(std::uint64_t frame) {
@@ -39,8 +42,21 @@ FrameLog::Entry* FrameLog::find(std::uint64_t frame) {
   return found != entries_.end() && found->report.frame() == frame ? &*found : nullptr;
 }
 
-void FrameLog::reported(std::uint64_t frame, const proto::NodeReport& report) {
-  if (Entry* entry = find(frame)) *entry->report.add_node() = report;
+void FrameLog::reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report) {
+  Entry* entry = find(frame);
+  if (entry == nullptr) return;
+  const auto& known = entry->report.node();
+  if (std::ranges::any_of(known, [&](const proto::NodeReport& one) { return one.node() == node; })) return;
+  proto::NodeReport& added = *entry->report.add_node() = report;
+  added.set_node(node);
+  const std::size_t bytes = added.ByteSizeLong();
+  entry->report_bytes += bytes;
+  report_bytes_ += bytes;
+  for (Entry& oldest : entries_) {
+    if (report_bytes_ <= kMostReport_bytes) break;
+    report_bytes_ -= std::exchange(oldest.report_bytes, 0);
+    oldest.report.clear_node();
+  }
 }
 
 void FrameLog::swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules,

@@ -19,8 +19,9 @@ class FrameLog {
   // The frame begins with this region of interest and state.
   void begun(std::uint64_t frame, const RegionOfInterest& roi, const std::string& state_hash, Clock::time_point now);
 
-  // A node's report of a frame. Reports of frames that are forgotten have no effect.
-  void reported(std::uint64_t frame, const proto::NodeReport& report);
+  // A node's report of a frame; its first one counts. Reports of frames that are forgotten have no effect, and the
+  // oldest are forgotten where all of them together are larger than kMostReport_bytes.
+  void reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report);
 
   void swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules, Clock::time_point now);
 
@@ -40,17 +41,20 @@ class FrameLog {
   std::vector<proto::FrameReport> reports(std::uint64_t first, std::uint64_t count) const;
 
   static constexpr std::size_t kRemembered = 10000;
+  static constexpr std::size_t kMostReport_bytes = std::size_t{256} << 20;
 
  private:
   struct Entry {
     proto::FrameReport report;
     Clock::time_point begun;
     bool shown = false;
+    std::size_t report_bytes = 0;  // of the nodes
   };
   Entry* find(std::uint64_t frame);
 
   std::deque<Entry> entries_;  // by frame number
   RateWindow swaps_;
+  std::size_t report_bytes_ = 0;
   std::vector<std::uint32_t> stale_modules_;
   std::optional<std::uint64_t> last_swapped_;
   std::uint64_t late_frames_ = 0;

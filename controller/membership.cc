@@ -7,6 +7,14 @@
 
 namespace lfd::controller {
 
+namespace {
+
+// Of names, versions and hashes; what peers send beyond it is neither kept nor repeated.
+constexpr std::size_t kMostText = 64;
+constexpr std::size_t kMostEndpoint = 256;
+
+}  // namespace
+
 const char* name_of(Phase phase) {
   switch (phase) {
     case Phase::kAbsent:
@@ -46,6 +54,9 @@ Result<std::optional<std::string>> Membership::join(const proto::Join& join, con
 }
 
 Status Membership::check(const proto::Join& join) const {
+  if (std::max({join.name().size(), join.version().size(), join.calibration_hash().size()}) > kMostText ||
+      join.images_endpoint().size() > kMostEndpoint)
+    return Error("a name, version, hash or address that is too long");
   if (join.version() != rules_.version) {
     return Error(fmt::format("version {} does not fit the controller's {}", join.version(), rules_.version));
   }
@@ -115,7 +126,7 @@ Membership::Heard Membership::heard(const std::string& address, Clock::time_poin
 void Membership::holds(const std::string& address, const std::string& state_hash, bool known) {
   for (auto& [name, peer] : peers_) {
     if (peer.address != address || !peer.lives()) continue;
-    peer.state_hash = state_hash;
+    peer.state_hash = state_hash.size() <= kMostText ? state_hash : "too long";
     if (known || peer.role == proto::DISPLAY) peer.phase = Phase::kReady;
   }
 }

@@ -91,8 +91,6 @@ Check read_drawing(Deployment& deployment) {
 
 Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
   const proto::Deployment& m = deployment.message;
-  if (auto fault = deployment::check_node_names(m)) return fault;
-  if (auto fault = read_display(overrides, deployment)) return fault;
   if (auto fault = read_scene(overrides, deployment)) return fault;
   if (auto fault = read_drawing(deployment)) return fault;
   if (auto fault = deployment::read_addresses(m, deployment.addresses)) return fault;
@@ -110,11 +108,23 @@ Check read_parts(const DeploymentOverrides& overrides, Deployment& deployment) {
 
 }  // namespace
 
+Result<Deployment> parse_deployment(std::string_view text, const std::string& name, const DisplayCalibration& display) {
+  Deployment deployment;
+  LFD_TRY(const TextPlaces places, parse_text(text, name, deployment.message));
+  deployment.display = display;
+  auto fault = deployment::check_node_names(deployment.message);
+  if (!fault) fault = read_parts({}, deployment);
+  if (fault) return fault->error.within(places.of(fault->road));
+  return deployment;
+}
+
 Result<Deployment> load_deployment(const fs::path& path, const DeploymentOverrides& overrides) {
   Deployment deployment;
   LFD_TRY(const TextPlaces places, read_text_file(path, deployment.message));
   deployment.folder = path.parent_path();
-  const auto fault = read_parts(overrides, deployment);
+  auto fault = deployment::check_node_names(deployment.message);
+  if (!fault) fault = read_display(overrides, deployment);
+  if (!fault) fault = read_parts(overrides, deployment);
   if (fault && fault->road == kOption) return fault->error;
   if (fault) return fault->error.within(places.of(fault->road));
   return deployment;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -61,6 +62,9 @@ struct DeploymentOverrides {
 
 // Errors name file, line and field: `wall.textproto:14: node "b": modules: 17 is owned by node "a" already`.
 Result<Deployment> load_deployment(const std::filesystem::path& path, const DeploymentOverrides& overrides = {});
+
+// The same from the text of a file of that name, for a display that is there already: no file is read.
+Result<Deployment> parse_deployment(std::string_view text, const std::string& name, const DisplayCalibration& display);
 
 // Modules of the display that no node draws, ascending.
 std::vector<int> unowned_modules(const Deployment& deployment);

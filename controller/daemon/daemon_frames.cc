@@ -53,7 +53,7 @@ void Daemon::begin_frame(Clock::time_point now) {
 }
 
 void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
-  log_.reported(ready.frame(), ready.report());
+  log_.reported(ready.frame(), peer.name, ready.report());
   drawn_of_replay(peer, ready);
   const bool is_said = said_errors_[peer.name] == ready.report().error();
   said_errors_[peer.name] = ready.report().error();

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string_view>
 #include <vector>
 
 #include "base/file.h"
@@ -37,6 +38,15 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 int main(int argc, char** argv) {
+  const std::string_view first = argc > 1 ? argv[1] : "--help";
+  if (first == "--help" || first == "-h" || first == "-help=1") {
+    std::cout << "Runs a fuzz target over every file of the folders given, where no fuzzer is built in.\n"
+                 "Usage: "
+              << argv[0] << " FOLDER...\n"
+              << "Exit codes: 0 done, 1 a file cannot be read or there is none, a signal where the target crashed.\n"
+                 "The `fuzz` preset (clang) makes a libFuzzer program of the same name: see its -help=1.\n";
+    return argc > 1 ? 0 : 2;
+  }
   const rlimit limit{kMemoryLimit_bytes, kMemoryLimit_bytes};
   if (setrlimit(RLIMIT_AS, &limit) != 0) return 1;
   std::vector<std::filesystem::path> files;

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace lfd::controller {
 namespace {
 
@@ -30,7 +33,7 @@ TEST(FrameLog, ReportsOneFrame) {
   log.begun(0, doubled(), "h", kStart);
   proto::NodeReport node;
   node.set_node("left");
-  log.reported(0, node);
+  log.reported(0, "left", node);
   log.swapped({.frame = 0, .ready = {"left"}, .missing = {"right"}, .late = true, .begun = kStart}, {4, 5},
               kStart + 20ms);
   EXPECT_FALSE(log.all_shown(0, 1));
@@ -62,7 +65,35 @@ TEST(FrameLog, ForgetsTheOldest) {
   for (std::uint64_t frame = 0; frame < FrameLog::kRemembered + 10; ++frame) log.begun(frame, doubled(), "h", kStart);
   ASSERT_EQ(log.reports(0, 11).size(), 1u);
   EXPECT_EQ(log.reports(0, 11)[0].frame(), 10u);
-  log.reported(3, {});
+  log.reported(3, "left", {});
+}
+
+TEST(FrameLog, ANodeReportsAFrameOnce) {
+  FrameLog log;
+  log.begun(0, doubled(), "h", kStart);
+  proto::NodeReport report;
+  report.set_node("somebody else");
+  for (const char* const renderer : {"first", "second"}) {
+    report.set_renderer(renderer);
+    log.reported(0, "left", report);
+  }
+  const proto::FrameReport frame = log.reports(0, 1).at(0);
+  ASSERT_EQ(frame.node_size(), 1);
+  EXPECT_EQ(frame.node(0).node(), "left") << "as the controller knows it";
+  EXPECT_EQ(frame.node(0).renderer(), "first");
+}
+
+TEST(FrameLog, LargeReportsCostTheOldestOnes) {
+  FrameLog log;
+  proto::NodeReport large;
+  large.set_renderer(std::string(FrameLog::kMostReport_bytes / 4, 'x'));
+  for (std::uint64_t frame = 0; frame < 5; ++frame) {
+    log.begun(frame, doubled(), "h", kStart);
+    log.reported(frame, "left", large);
+  }
+  std::vector<int> nodes;
+  for (const proto::FrameReport& report : log.reports(0, 5)) nodes.push_back(report.node_size());
+  EXPECT_EQ(nodes, (std::vector<int>{0, 0, 1, 1, 1}));
 }
 
 TEST(FrameLog, TellsTheRateOfTheLastSeconds) {

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace lfd::controller {
 namespace {
 
@@ -125,6 +128,31 @@ TEST(Membership, TakesOneDisplayAtATime) {
   ASSERT_EQ(members.leave("A"), "screen");
   EXPECT_EQ(members.display(), nullptr);
   EXPECT_TRUE(members.join(join_of("other screen", 2, proto::DISPLAY), "B", kStart));
+}
+
+TEST(Membership, ForgetsDisplaysThatHaveGone) {
+  Membership members = two_nodes();
+  for (int i = 0; i < 5; ++i) {
+    const std::string name = "display-" + std::to_string(i);
+    ASSERT_TRUE(members.join(join_of(name, 1, proto::DISPLAY), name));
+    EXPECT_EQ(members.peers().size(), 3U) << "with the nodes";
+    EXPECT_EQ(members.leave(name), name);
+  }
+}
+
+TEST(Membership, KeepsAndRepeatsNothingThatIsTooLong) {
+  Membership members = two_nodes();
+  const std::string much(1000, 'x');
+  std::vector<proto::Join> joins(4, join_of("d", 1, proto::DISPLAY));
+  joins[0].set_name(much);
+  joins[1].set_version(much);
+  joins[2].set_calibration_hash(much);
+  joins[3].set_images_endpoint(much);
+  for (const proto::Join& join : joins)
+    EXPECT_EQ(members.join(join, "A").error().message(), "a name, version, hash or address that is too long");
+  ASSERT_TRUE(members.join(join_of("left"), "A"));
+  members.holds("A", much, false);
+  EXPECT_LT(members.find("left")->state_hash.size(), 100U);
 }
 
 TEST(Membership, TakesTheSameProcessFromANewAddress) {
