@@ -186,6 +186,14 @@ CLI::Validator file_ending(const std::string& ending) {
   return CLI::Validator(wrong, "*" + ending);
 }
 
+CLI::Validator one_of(const std::string& what, std::vector<std::string> names) {
+  const std::string form = fmt::format("{}", fmt::join(names, "|"));
+  const auto wrong = [what, names = std::move(names)](const std::string& text) -> std::string {
+    return std::ranges::find(names, text) != names.end() ? "" : unknown_text(what, text, names);
+  };
+  return CLI::Validator(wrong, form);
+}
+
 CLI::Validator seed_number() {
   const auto wrong = [](const std::string& text) -> std::string {
     std::uint64_t number = 0;

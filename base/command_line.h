@@ -55,6 +55,9 @@ CLI::Validator whole_number_within(std::int64_t low, std::int64_t high);
 // The name of a file that ends so (".png").
 CLI::Validator file_ending(const std::string& ending);
 
+// One of these words; the error says what was probably meant ("unknown kind gird; did you mean grid?").
+CLI::Validator one_of(const std::string& what, std::vector<std::string> names);
+
 // A whole number that fits into 64 bits, without a sign.
 CLI::Validator seed_number();
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/log.h"
+
 namespace lfd {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -38,6 +40,13 @@ std::optional<std::string> closest(std::string_view written, std::span<const std
     }
   }
   return best;
+}
+
+std::string unknown_text(std::string_view what, std::string_view written, std::span<const std::string> known) {
+  const auto meant = closest(written, known);
+  return fmt::format(
+      "unknown {} {}; {}", what, written,
+      meant ? fmt::format("did you mean {}?", *meant) : fmt::format("{} are possible", fmt::join(known, ", ")));
 }
 
 }  // namespace lfd

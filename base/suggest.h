@@ -15,4 +15,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 // more than one), unless `written` is the beginning of one.
 std::optional<std::string> closest(std::string_view written, std::span<const std::string> known);
 
+// "unknown kind gird; did you mean grid?"; where nothing is near, "unknown kind stripes; checker, grid are possible".
+std::string unknown_text(std::string_view what, std::string_view written, std::span<const std::string> known);
+
 }  // namespace lfd

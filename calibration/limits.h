@@ -27,6 +27,10 @@ inline constexpr Limits kPlace_px{0, 1e7};        // of principal points and gri
 inline constexpr Limits kGridStep_px{1e-3, 1e7};  // likewise; grids are inverted in double
 inline constexpr Limits kDistortion{0, 1e6};
 
+// How far a unit quaternion's length may be from 1: that of four digits after the point is off by up to 1e-4. It is
+// normalised wherever it is used; one that is farther away has a wrong number in it.
+inline constexpr double kUnitLengthError = 2e-4;
+
 // Regions of interest (calibration/spaces/roi.h).
 inline constexpr Limits kRoiWorldSize_m{1e-9, 1e12};
 inline constexpr Limits kRoiPhysicalSize_m{1e-9, 1e6};

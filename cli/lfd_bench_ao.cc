@@ -7,7 +7,6 @@
 
 #include "base/file.h"
 #include "base/log.h"
-#include "base/suggest.h"
 #include "bench/ao/ao_bench.h"
 #include "cli/lfd_bench.h"
 #include "cli/lfd_commands.h"
@@ -32,13 +31,20 @@ Result<ImageSize> size_from(const std::string& text) {
   return size;
 }
 
-// A method's name, or what was meant.
-std::string method_fault(const std::string& name) {
-  if (occlusion::find_method(name) != nullptr) return "";
+std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const occlusion::Method* method : occlusion::methods()) names.emplace_back(method->name);
-  const auto meant = closest(name, names);
-  return fmt::format("{} is no method{}", name, meant ? "; did you mean " + *meant + "?" : "");
+  return names;
+}
+
+// What a bench that failed leaves of a folder that it made: nothing, unless there is something in it.
+void leave_no_empty_folder(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, failure)) {
+    if (!entry.is_directory(failure)) return;
+  }
+  fs::remove_all(folder, failure);
 }
 
 Status write_results(const std::filesystem::path& out, const bench::AoTable& table) {
@@ -65,8 +71,11 @@ int bench_ao(AoArguments& a) {
     a.options.module_counts.clear();
   }
   if (const Status possible = bench::check_options(a.options); !possible) return wrong_use(possible.error());
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(a.options.out, ignored);
   if (const Status folder = make_folder(a.options.out); !folder) return fail(folder.error());
   const auto table = bench::ao_bench(a.options);
+  if (!table && is_new) leave_no_empty_folder(a.options.out);
   if (!table) return fail(table.error());
   if (const Status written = write_results(a.options.out, *table); !written) return fail(written.error());
   std::cout << bench::text_of(*table);
@@ -113,7 +122,7 @@ void add_bench_ao(CLI::App& bench, int& exit_code) {
   ao->add_option("--method", a.options.methods, "Methods (default: all)")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Validator(method_fault, "NAME"));
+      ->check(one_of("method", method_names()));
   ao->add_flag("--no-scaling", a.no_scaling, "Neither other resolutions nor other numbers of modules");
   ao->add_option("--gpu", a.options.gpu, "Number in lfd-rendernode --list-gpus (default: the first that works)");
 }

@@ -18,6 +18,14 @@ struct ExportOptions {
   std::vector<int> size;  // none or two
 };
 
+// A warp has a number for the middle of each of its pixels, and whoever reads it knows no map beyond the outermost.
+void warn_of_border(const DisplayCalibration& display, ImageSize size) {
+  log::warn(
+      "--size {} {}: the maps end at the middles of the warps' outermost pixels, {:g} px from the left and right "
+      "borders of the modules' images and {:g} px from the upper and lower ones",
+      size.width, size.height, 0.5 * display.image.width / size.width, 0.5 * display.image.height / size.height);
+}
+
 int run_export(const ExportOptions& options) {
   const auto display = load_calibration(options.file);
   if (!display) return fail(display.error());
@@ -30,6 +38,7 @@ int run_export(const ExportOptions& options) {
   }
   std::optional<ImageSize> size;
   if (!options.size.empty()) size = ImageSize{options.size[0], options.size[1]};
+  if (size && *size != display->image) warn_of_border(*display, *size);
   const auto archive = export_mpcdi(*display, size);
   if (!archive) return fail(archive.error().within(options.file));
   const auto coloured =
@@ -53,7 +62,11 @@ void add_export_command(CLI::App& app, int& exit_code) {
                    "File to write: *.mpcdi (MPCDI 2.0, profile a3) or *.textproto (a calibration again, see --grids)")
       ->required()
       ->type_name("FILE");
-  command->add_option("--size", options->size, "MPCDI: pixels of each module's warp; the image's own size without it")
+  command
+      ->add_option(
+          "--size", options->size,
+          "MPCDI: pixels of each module's warp; the image's own size without it. Half a warp's pixel along the border "
+          "of the image is without a map in the file")
       ->expected(2)
       ->check(whole_number_within(1, kMaxGridSide))
       ->type_name("WIDTH HEIGHT");

@@ -37,6 +37,11 @@ int run_simulate(SimulateOptions options) {
   if (!display) return fail(display.error());
   const auto made = simulate_observations(*display, options.simulation);
   if (!made) return wrong_use(made.error());
+  if (made->observations.points.empty()) {
+    return wrong_use(
+        Error(fmt::format("no observation is left to write: --missing {} leaves out every point of every image",
+                          options.simulation.missing)));
+  }
   if (auto status = write_file(options.out, print_observations(made->observations)); !status) {
     return fail(status.error());
   }

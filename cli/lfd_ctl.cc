@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "base/log.h"
 #include "calibration/spaces/roi.h"
+#include "cli/ao_parameter.h"
 #include "cli/ctl_requests.h"
 #include "cli/lfd_commands.h"
 #include "cli/lfd_ctl_pattern.h"
@@ -18,6 +20,7 @@
 #include "cli/status_watch.h"
 #include "cli/watch_table.h"
 #include "proto/settings.h"
+#include "proto/settings_effect.h"
 #include "proto/state.h"
 
 namespace lfd {
@@ -138,7 +141,13 @@ Status change_ao(const Arguments& arguments) {
     std::cout << ao_text(status.render().ao()) << choices_text(status);
     return {};
   }
+  const bool open_air_stays = arguments.ao_neighbours && !arguments.ao_open_air && request.ao().shared().open_air();
+  if (open_air_stays && *arguments.ao_neighbours == 0)
+    return Error("--neighbours 0: open air is on, and needs neighbours; --no-open-air switches it off");
   LFD_TRY(const proto::Reply reply, ask_controller(arguments.controller, request));
+  proto::RenderSettings render = status.render();
+  *render.mutable_ao() = request.ao();
+  for (const std::string& line : without_effect(render)) std::cerr << "warning: " << line << "\n";
   return {};
 }
 
@@ -163,6 +172,11 @@ std::vector<std::string> method_names() {
   return names;
 }
 
+CLI::Validator file_name() {
+  const auto wrong = [](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); };
+  return CLI::Validator(wrong, "");
+}
+
 // Every method with its parameters, a line each.
 std::string method_lines() {
   std::string lines = "Methods, and what --set changes in them:\n";
@@ -179,11 +193,9 @@ std::string method_lines() {
 void add_parameters(CLI::App& command, Arguments& a) {
   const auto take = [&a](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
-      const std::size_t equals = text.find('=');
-      double value = 0;
-      if (equals == text.npos || !CLI::detail::lexical_cast(text.substr(equals + 1), value))
-        throw CLI::ValidationError("--set", fmt::format("\"{}\"; NAME=VALUE is expected", text));
-      a.ao_parameters.emplace_back(text.substr(0, equals), value);
+      const auto parameter = parse_ao_parameter(text);
+      if (!parameter) throw CLI::ValidationError("--set", parameter.error().message());
+      a.ao_parameters.push_back(*parameter);
     }
   };
   command.add_option_function<std::vector<std::string>>("--set", take, "One of the method's parameters, see below")
@@ -223,7 +235,8 @@ void add_ao_options(CLI::App& command, Arguments& a) {
       ->check(whole_number_within(0, 8));
   add_switch(command, "--open-air", "--no-open-air", a.ao_open_air, "What a neighbour sees in the air hides nothing");
   add_switch(command, "--blur", "--no-blur", a.ao_blur, "Blur what was sampled");
-  command.add_option("--seed", a.ao_seed, "Of the samples");
+  command.add_option("--seed", a.ao_seed, "Of the samples")
+      ->check(whole_number_within(0, std::numeric_limits<std::uint32_t>::max()));
   add_numbers(command, "--curve", a.ao_curve, "A,B,C", "Post curve: ao' = 1 - clamp(B ((1 - ao) + A), 0, 1)^C");
   command
       .add_option("--blur-kind", a.ao_blur_kind,
@@ -268,7 +281,8 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   add_ao_options(*add("ao", "Change ambient occlusion, or print it; what is not given stays", change_ao), a);
   add("scene", "Show another scene; if it cannot be loaded the old one stays", change_scene)
       ->add_option("FILE", a.scene, "glTF file, as the controller's machine sees it")
-      ->required();
+      ->required()
+      ->check(file_name());
   add_pattern_command(*ctl, {arguments, &arguments->controller}, exit_code);
   add("quit", "End the cluster", quit);
 }

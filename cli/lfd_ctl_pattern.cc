@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/log.h"
-#include "base/suggest.h"
 #include "cli/ctl_requests.h"
 #include "cli/setting_names.h"
 #include "cli/status_table.h"
@@ -76,26 +75,14 @@ int change_pattern(const ControllerAt& controller, const Arguments& arguments) {
   return reply ? end_of_output() : fail(reply.error());
 }
 
-CLI::Validator pattern_kind() {
-  const auto wrong = [](const std::string& text) -> std::string {
-    const std::vector<std::string> names = names_of(kPatternNames);
-    if (std::ranges::find(names, text) != names.end()) return "";
-    const auto meant = closest(text, names);
-    return fmt::format(
-        "unknown kind {}; {}", text,
-        meant ? fmt::format("did you mean {}?", *meant) : fmt::format("{} are possible", fmt::join(names, ", ")));
-  };
-  return CLI::Validator(wrong, fmt::format("{}", fmt::join(names_of(kPatternNames), "|")));
-}
-
 Status judge_color(const std::vector<double>& color) {
   const bool fits = std::ranges::all_of(color, [](double part) { return part >= 0 && part <= 1; });
   return fits ? Status() : Error("0 to 1 are possible");
 }
 
 void add_options(CLI::App& command, Arguments& a) {
-  CLI::Option* kind =
-      command.add_option("KIND", a.kind, "What is shown, see below (default: print it)")->check(pattern_kind());
+  CLI::Option* kind = command.add_option("KIND", a.kind, "What is shown, see below (default: print it)")
+                          ->check(one_of("kind", names_of(kPatternNames)));
   add_list(command, "--module", a.modules,
            "Only these modules show it, the others are black: numbers and ranges (17,20-25)")
       ->needs(kind);

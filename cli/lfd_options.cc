@@ -94,11 +94,7 @@ Result<std::uint32_t> parse_buffers(const std::vector<std::string>& names) {
   std::uint32_t bits = 0;
   for (const std::string& name : names) {
     const auto known = std::ranges::find(buffer_names(), name);
-    if (known == buffer_names().end()) {
-      const auto meant = closest(name, buffer_names());
-      return Error(
-          fmt::format("--buffers: unknown buffer {}{}", name, meant ? fmt::format("; did you mean {}?", *meant) : ""));
-    }
+    if (known == buffer_names().end()) return Error(unknown_text("buffer", name, buffer_names())).within("--buffers");
     bits |= 1u << std::distance(buffer_names().begin(), known);
   }
   return bits;

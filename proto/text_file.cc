@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "base/file.h"
 #include "base/log.h"
@@ -60,6 +62,36 @@ std::optional<Step> next_step(std::string_view& road) {
   return step;
 }
 
+// A key of a map that is given twice would silently mean its last value. Right after parsing the entries are still
+// those of the text, as many and in their order.
+std::optional<Error> key_given_twice(const std::string& file, const pb::Message& message,
+                                     const TextPlaces::Tree* tree) {
+  const pb::Reflection& reflection = *message.GetReflection();
+  std::vector<const pb::FieldDescriptor*> fields;
+  reflection.ListFields(message, &fields);
+  for (const pb::FieldDescriptor* field : fields) {
+    if (field->cpp_type() != pb::FieldDescriptor::CPPTYPE_MESSAGE) continue;
+    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    std::set<std::string> keys;
+    for (int i = 0; i < count; ++i) {
+      const int index = field->is_repeated() ? i : -1;
+      const pb::Message& part = field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
+                                                     : reflection.GetMessage(message, field);
+      if (field->is_map()) {
+        std::string key;
+        pb::TextFormat::PrintFieldValueToString(part, field->message_type()->map_key(), -1, &key);
+        if (keys.insert(key).second) continue;
+        const int line = tree == nullptr ? -1 : tree->GetLocation(field, i).line;
+        const Error error(fmt::format("{}: key {} is given twice", field->name(), key));
+        return line < 0 ? error.within(file) : error.within(fmt::format("{}:{}", file, line + 1));
+      }
+      const TextPlaces::Tree* below = tree == nullptr ? nullptr : tree->GetTreeForNested(field, index);
+      if (auto error = key_given_twice(file, part, below)) return error;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string TextPlaces::of(std::string_view road) const {
@@ -92,6 +124,7 @@ Result<TextPlaces> parse_text(std::string_view text, std::string file, pb::Messa
     return Error(fmt::format("{}: longer than {} bytes", file, kTextFileLimit_bytes));
   pb::io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
   if (!parser.Parse(&stream, &message)) return errors.error();
+  if (const auto twice = key_given_twice(file, message, tree.get())) return *twice;
   return TextPlaces(std::move(file), message.GetDescriptor(), std::move(tree));
 }
 

@@ -38,7 +38,7 @@ class TextPlaces {
   std::unique_ptr<const Tree> tree_;
 };
 
-// Parses `text` into `message`, which is cleared first. Syntax errors, unknown fields and fields given twice are errors
+// Parses `text` into `message`, which is cleared first. Syntax errors, unknown fields, and fields and keys given twice, are errors
 // that begin with "file:line: ".
 Result<TextPlaces> parse_text(std::string_view text, std::string file, google::protobuf::Message& message);
 

@@ -119,8 +119,9 @@ Status validate(const PinholeMap& map) {
     LFD_TRY_STATUS(check_magnitude(name, value, limits));
   }
   const double norm = glm::length(map.orientation);
-  if (!(std::abs(norm - 1) <= 1e-6)) {
-    return Error(fmt::format("orientation: a unit quaternion is needed, its length is {}", norm));
+  if (!(std::abs(norm - 1) <= kUnitLengthError)) {
+    return Error(fmt::format("orientation: a unit quaternion is needed (its length within {:g} of 1), its length is {}",
+                             kUnitLengthError, norm));
   }
   return {};
 }

@@ -29,7 +29,7 @@ struct PinholeMap {
 };
 
 // Refuses numbers that are not finite or beyond calibration/limits.h, focal lengths <= 0, orientations that are not of
-// unit length (1e-6).
+// unit length (kUnitLengthError).
 Status validate(const PinholeMap& map);
 
 // The radius up to which the radial polynomial grows, i.e. up to which it can be inverted; infinity where it always

@@ -45,8 +45,10 @@ Status validate(const RegionOfInterest& roi) {
     LFD_TRY_STATUS(check_magnitude("physical_centre", place, kPlace_m));
   }
   const double norm = glm::length(roi.world_orientation);
-  if (!(std::abs(norm - 1) <= 1e-6)) {
-    return Error(fmt::format("world_orientation: a unit quaternion is needed, its length is {}", norm));
+  if (!(std::abs(norm - 1) <= kUnitLengthError)) {
+    return Error(
+        fmt::format("world_orientation: a unit quaternion is needed (its length within {:g} of 1), its length is {}",
+                    kUnitLengthError, norm));
   }
   return {};
 }

@@ -12,6 +12,7 @@
 #include "proto/key_files.h"
 #include "controller/daemon/replay_options.h"
 #include "proto/settings.h"
+#include "proto/settings_effect.h"
 
 namespace lfd::controller {
 namespace {
@@ -98,6 +99,7 @@ int run(Arguments arguments) {
     if (!replay) return fail(replay.error());
     arguments.options.replay = *std::move(replay);
   }
+  for (const std::string& line : without_effect(deployment->message.render())) log::warn("render: {}", line);
   arguments.options.deployment = *deployment;
   auto metrics = open_metrics("lfd-controller", arguments.metrics);
   if (!metrics) return fail(metrics.error());

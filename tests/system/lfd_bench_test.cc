@@ -88,5 +88,18 @@ TEST(LfdBench, ClusterLeavesATableAndAPlot) {
   EXPECT_THAT(csv, testing::HasSubstr("\nscenes,4,2,\"ribbed-shell\","));
 }
 
+TEST(LfdBench, AoLeavesNoFolderWhereItCouldNotBegin) {
+  const Workbench bench;
+  std::vector<std::string> arguments = small_ao_bench(bench);
+  arguments.insert(arguments.end(), {"--scene", (bench.folder() / "none.glb").string()});
+  for (const bool was_there : {false, true}) {
+    if (was_there) std::filesystem::create_directory(bench.folder() / "ao");
+    const auto lfd = start_program("lfd", arguments);
+    const auto exit = lfd->wait(kClusterPatience);
+    EXPECT_TRUE(exit && exit->code == 1) << testing::PrintToString(lfd->lines());
+    EXPECT_EQ(std::filesystem::exists(bench.folder() / "ao"), was_there);
+  }
+}
+
 }  // namespace
 }  // namespace lfd::harness

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -107,6 +108,10 @@ TEST_F(LfdCalibrateFit, WrongUseIsExplained) {
   };
   EXPECT_THAT(wrong({"simulate", truth_, "--out", seen_, "--points", "24"}), HasSubstr("as in 24x18"));
   EXPECT_THAT(wrong({"simulate", truth_, "--out", seen_, "--missing", "2"}), HasSubstr("missing: 2"));
+  const std::string none = path("none.csv");
+  EXPECT_THAT(wrong({"simulate", truth_, "--out", none, "--missing", "1"}),
+              HasSubstr("no observation is left to write: --missing 1"));
+  EXPECT_FALSE(std::filesystem::exists(none));
   EXPECT_THAT(wrong({"fit", seen_, "--out", path("none.textproto")}), HasSubstr("--start"));
   wrong({"fit", seen_, "--start", start_, "--out", path("none.textproto"), "--emitter-sd", "-1"});
 }

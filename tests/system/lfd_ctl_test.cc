@@ -99,6 +99,41 @@ TEST(LfdCtl, ChangesOnlyWhatIsGiven) {
   EXPECT_TRUE(ao.blur().has_enabled() && !ao.blur().enabled());
 }
 
+// What `lfd ctl` says instead of a table, and its exit code.
+std::vector<std::string> refused(const Running& running, std::vector<std::string> arguments, int code) {
+  arguments.insert(arguments.begin(), {"ctl", "--controller", running.endpoint});
+  const auto lfd = start_program("lfd", arguments);
+  const auto exit = lfd->wait(kClusterPatience);
+  EXPECT_TRUE(exit && exit->code == code) << testing::PrintToString(arguments) << testing::PrintToString(lfd->lines());
+  EXPECT_EQ(lines_with(*lfd, "error: "), 1) << testing::PrintToString(lfd->lines());
+  return lfd->lines();
+}
+
+TEST(LfdCtl, ErrorsNameTheOptionAndWhatIsPossible) {
+  const Workbench bench;
+  const Running running = run_cluster(bench.deployment("sink: NONE pacing { heartbeat_ms: 100 }"));
+  ASSERT_TRUE(draws(running.endpoint, 1));
+  EXPECT_THAT(refused(running, {"ao", "--set", "directions=abc"}, 2),
+              Contains(StartsWith("error: --set: directions=abc: a number is needed, 1 to 128 for ")));
+  for (const char* const seed : {"-1", "4294967296", "99999999999999999999", "1.5"}) {
+    EXPECT_THAT(refused(running, {"ao", "--seed", seed}, 2),
+                Contains(fmt::format("error: --seed: {}; whole numbers from 0 to 4294967295 are possible", seed)));
+  }
+  EXPECT_THAT(refused(running, {"scene", ""}, 2), Contains(StartsWith("error: FILE: the name is empty")));
+  ctl(running, {"ao", "--neighbours", "1", "--open-air"});
+  EXPECT_THAT(refused(running, {"ao", "--neighbours", "0"}, 1), Contains(HasSubstr("--no-open-air switches it off")));
+  EXPECT_THAT(ctl(running, {"ao", "--neighbours", "0", "--no-open-air"}), IsEmpty());
+}
+
+TEST(LfdCtl, WarnsOfSettingsWithoutEffect) {
+  const Workbench bench;
+  const Running running = run_cluster(bench.deployment(
+      "sink: NONE pacing { heartbeat_ms: 100 } render { ao { method: \"gtao\" radius_m: 0.1 radius_roi: 0.1 } }"));
+  EXPECT_TRUE(says(*running.lfd, "render: ao.radius_roi: has no effect beside ao.radius_m"));
+  ASSERT_TRUE(draws(running.endpoint, 1));
+  EXPECT_THAT(ctl(running, {"ao", "--samples", "4"}), Contains("warning: ao.samples: has no effect: gtao takes none"));
+}
+
 TEST(LfdCtl, SceneChangesThePicturesOfLaterFrames) {
   const Workbench bench;
   const std::string room = bench.folder() / "room.glb";

@@ -131,7 +131,7 @@ TEST_F(CalibrationFile, EveryBadFieldIsNamedWithItsLine) {
       {"h: [640, 0, 128, 0, -640, 96, 0, 0, 1]", "h: [1, 1, 1, 1, 1, 1, 0, 0, 1]", ":12: module 1: homography: h: "},
       {"position { x: -0.1 z: -0.6 }", "", ":15: module 2: pinhole: position: is missing"},
       {"position { x: -0.1 z: -0.6 }", "position { x: inf }", ":16: module 2: pinhole: position: "},
-      {"orientation { w: 1 }", "orientation { w: 0.9 }", ":17: module 2: pinhole: orientation: "},
+      {"orientation { w: 1 }", "orientation { w: 0.9997 }", ":17: module 2: pinhole: orientation: "},
       {"orientation { w: 1 }", "", ":15: module 2: pinhole: orientation: is missing"},
       {"focal_u_px: 384", "focal_u_px: 0", ":15: module 2: pinhole: focal_u_px: "},  // 0 is as if it were not there
       {"focal_v_px: 385", "focal_v_px: -3", ":19: module 2: pinhole: focal_v_px: "},

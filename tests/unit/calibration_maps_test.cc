@@ -226,6 +226,10 @@ TEST(Pinhole, RefusesNumbersThatMakeNoProjector) {
   EXPECT_EQ(refused([](PinholeMap& m) { m.focal_v_px = -1; }).substr(0, 11), "focal_v_px:");
   EXPECT_EQ(refused([](PinholeMap& m) { m.k2 = NAN; }).substr(0, 3), "k2:");
   EXPECT_EQ(refused([](PinholeMap& m) { m.position.y = INFINITY; }).substr(0, 9), "position:");
+  PinholeMap four_digits;
+  four_digits.orientation = {0.9239, 0.2209, 0.2209, 0.2209};  // its length is 1.00006
+  EXPECT_TRUE(validate(four_digits));
+  EXPECT_EQ(refused([](PinholeMap& m) { m.orientation.w = 1.0003; }).substr(0, 12), "orientation:");
   EXPECT_EQ(refused([](PinholeMap& m) { m.orientation.w = 2; }).substr(0, 12), "orientation:");
 }
 

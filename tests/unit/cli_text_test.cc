@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/suggest.h"
+#include "cli/ao_parameter.h"
 #include "cli/lfd_commands.h"
 #include "cli/report.h"
 #include "cli/status_table.h"
@@ -48,6 +50,29 @@ TEST(Buffers, AreBitsInTheOrderOfTheirKinds) {
             1u << proto::POSITION | 1u << proto::NORMAL | 1u << proto::AO);
   EXPECT_EQ(*parse_buffers({"bent_normal"}), 1u << proto::BENT_NORMAL);
   EXPECT_THAT(parse_buffers({"colour"}).error().message(), HasSubstr("did you mean color?"));
+}
+
+TEST(AoParameter, IsANameAndANumber) {
+  const auto read = parse_ao_parameter("steps=4");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, std::pair(std::string("steps"), 4.0));
+  for (const auto& [text, error] : {std::pair{"steps", "\"steps\"; NAME=VALUE is expected"},
+                                    {"=4", "\"=4\"; NAME=VALUE is expected"},
+                                    {"shel=x", "shel=x: no method has a parameter shel"}}) {
+    EXPECT_EQ(parse_ao_parameter(text).error().message(), error);
+  }
+  for (const char* const value : {"abc", "", "nan", "inf", "4x", "1e999"}) {
+    const auto refused = parse_ao_parameter(std::string("directions=") + value);
+    ASSERT_FALSE(refused) << value;
+    EXPECT_THAT(refused.error().message(),
+                AllOf(HasSubstr("directions="), HasSubstr(": a number is needed, 1 to "), HasSubstr("for hbao")));
+  }
+}
+
+TEST(UnknownText, SaysWhatWasMeantOrWhatThereIs) {
+  const std::vector<std::string> names{"grid", "number"};
+  EXPECT_EQ(unknown_text("kind", "gird", names), "unknown kind gird; did you mean grid?");
+  EXPECT_EQ(unknown_text("kind", "stripes", names), "unknown kind stripes; grid, number are possible");
 }
 
 TEST(ImageNames, HaveThreeDigitsAndTheBuffersName) {

@@ -250,5 +250,28 @@ TEST(Mpcdi, TheDisplayGivenGivesItsColourToo) {
   EXPECT_TRUE(import->display.modules[0].color);
 }
 
+// A warp has a number for the middle of each of its pixels: beyond the outermost nobody knows a map.
+TEST(Mpcdi, ASmallerWarpLosesHalfItsPixelAlongTheBorder) {
+  const DisplayCalibration display = *make_display("desk", 1);
+  const ImageSize quarter{display.image.width / 4, display.image.height / 4};
+  const auto archive = export_mpcdi(display, quarter);
+  ASSERT_TRUE(archive) << archive.error().message();
+  const auto import = import_mpcdi(*archive, "f", {});
+  ASSERT_TRUE(import) << import.error().message();
+  const auto lit = [](const DisplayCalibration& of, double u, double v) {
+    return lit_by(of, of.modules[0].map, PixelPoint{u, v});
+  };
+  const double middle = 0.5 * display.image.height, right = display.image.width;
+  for (const double u : {0.5, 1.5, right - 1.5, right - 0.5}) {
+    EXPECT_TRUE(lit(display, u, middle)) << u;
+    EXPECT_FALSE(lit(import->display, u, middle)) << u;
+  }
+  for (const double u : {2.5, right - 2.5}) {
+    const auto before = lit(display, u, middle), after = lit(import->display, u, middle);
+    ASSERT_TRUE(before && after) << u;
+    EXPECT_NEAR(after->x, before->x, 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace lfd

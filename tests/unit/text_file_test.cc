@@ -32,6 +32,16 @@ TEST(TextFile, AFieldGivenTwiceIsAnError) {
   EXPECT_THAT(error_of("name: \"a\"\nname: \"b\""), StartsWith("wall.textproto:2: "));
 }
 
+TEST(TextFile, AKeyGivenTwiceIsAnError) {
+  const std::string twice =
+      "render { ao { method: \"hbao\"\n parameter { key: \"steps\" value: 1 }\n parameter { key: \"bias\" value: 0 }\n"
+      "parameter { key: \"steps\" value: 2 } } }";
+  EXPECT_EQ(error_of(twice), "wall.textproto:4: parameter: key \"steps\" is given twice");
+  proto::Deployment message;
+  ASSERT_TRUE(parse_text(twice.substr(0, twice.find("parameter { key: \"bias\"")) + "} }", "f", message));
+  EXPECT_EQ(message.render().ao().parameter().at("steps"), 1);
+}
+
 TEST(TextFile, CommentsAndListsAreRead) {
   proto::Deployment message;
   ASSERT_TRUE(parse_text("# one\nname: \"a\"  # two\nnode { modules: [\"0-3\", \"5\"] }", "f", message));

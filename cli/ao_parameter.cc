@@ -1,0 +1,47 @@
+// Names and values.
+#include "cli/ao_parameter.h"
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "base/log.h"
+#include "proto/occlusion/method.h"
+
+namespace lfd {
+namespace {
+
+// What each method that has it takes, a range once for all that agree.
+std::string ranges_of(std::string_view name) {
+  std::vector<std::pair<std::string, std::vector<std::string_view>>> ranges;
+  for (const occlusion::Method* method : occlusion::methods()) {
+    for (const occlusion::Parameter& one : method->parameters) {
+      if (one.name != name) continue;
+      const std::string range = fmt::format("{:g} to {:g}", one.least, one.most);
+      if (ranges.empty() || ranges.back().first != range) ranges.push_back({range, {}});
+      ranges.back().second.push_back(method->name);
+    }
+  }
+  std::vector<std::string> texts;
+  for (const auto& [range, methods] : ranges)
+    texts.push_back(fmt::format("{} for {}", range, fmt::join(methods, ", ")));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+}  // namespace
+
+Result<std::pair<std::string, double>> parse_ao_parameter(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) return Error(fmt::format("\"{}\"; NAME=VALUE is expected", text));
+  const std::string name = text.substr(0, equals);
+  const char* const begin = text.data() + equals + 1;
+  const char* const end = text.data() + text.size();
+  double value = 0;
+  const auto [stop, failure] = std::from_chars(begin, end, value);
+  if (failure == std::errc() && stop == end && std::isfinite(value)) return std::pair(name, value);
+  const std::string ranges = ranges_of(name);
+  if (ranges.empty()) return Error(fmt::format("{}: no method has a parameter {}", text, name));
+  return Error(fmt::format("{}: a number is needed, {}", text, ranges));
+}
+
+}  // namespace lfd
