@@ -50,7 +50,8 @@ Result<std::optional<std::string>> Membership::join(const proto::Join& join, con
               .last_heard = std::nullopt,
               .last_word = now,
               .rival = std::nullopt};
-  return std::optional(peer.name);
+  forget_displays();
+  return std::optional(join.name());
 }
 
 Status Membership::check(const proto::Join& join) const {

@@ -64,6 +64,7 @@ class Membership {
   // refused once something has.
   Result<std::optional<std::string>> join(const proto::Join& join, const std::string& address, Clock::time_point now);
   static constexpr int kHeartbeatsOfDoubt = 2;
+  static constexpr int kGoneDisplays = 8;  // that are remembered: any number of names may come and go
 
   // The peer has been sent its Welcome: from now on it has to be heard.
   void welcomed(const std::string& name, Clock::time_point now);
@@ -94,7 +95,6 @@ class Membership {
   std::vector<std::string> ready_nodes() const;
 
  private:
-  static constexpr int kGoneDisplays = 8;  // that are remembered: any number of names may come and go
   void forget_displays();
   Status check(const proto::Join& join) const;
   // Whether it may come now; absent: not decided yet.

@@ -1,4 +1,5 @@
 // How sockets and contexts come to be: limits, keys, addresses.
+#include <google/protobuf/stubs/logging.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -114,7 +115,8 @@ Result<Socket> open(Context& context, zmq::socket_type type, const std::string& 
 
 }  // namespace
 
-Context::Context() : transport_(std::make_unique<Transport>()) {}
+// What cannot be parsed is said by receive(), now and then; Protobuf itself would say it with every message.
+Context::Context() : transport_(std::make_unique<Transport>()) { google::protobuf::SetLogHandler(nullptr); }
 
 Context::Context(KeyRing keys) : Context() {
   const Status pair = check_pair(keys.own);

@@ -58,11 +58,12 @@ std::optional<proto::Envelope> envelope_of(std::string_view bytes) {
 }
 
 Peers::Peers()
-    : members_({.version = kVersion, .calibration_hash = "c0", .nodes = kNodes, .patience = 3s}),
+    : members_({.version = kVersion, .calibration_hash = "c0", .nodes = kNodes, .patience = 3s, .heartbeat = 500ms}),
       stage_(stage_with_a_scene()) {
   for (const auto& [name, address] : {std::pair{"left", "L"}, {"right", "R"}, {"display", "D"}}) {
     const proto::Role role = *address == 'D' ? proto::DISPLAY : proto::NODE;
-    LFD_CHECK(members_.join(join_of(name, role), address), "it may join");
+    const auto joined = members_.join(join_of(name, role), address, now_);
+    LFD_CHECK(joined && *joined, "it may join");
     members_.welcomed(name, now_);
     members_.holds(address, stage_.store().hash(), true);
   }
@@ -71,7 +72,7 @@ Peers::Peers()
   scene.add_instance()->set_mesh(content_hash(kAsset));
   gatherer_.want(scene);
   assembly_.configure(kModules, kImage);
-  for (const char* const node : {"L", "R"}) assembly_.node_came(node);
+  for (const char* const node : {"L", "R"}) LFD_CHECK(assembly_.node_came(node, now_), "there is room for it");
   tick();
   check();
 }
@@ -94,9 +95,9 @@ void Peers::to_controller(const std::string& sender, const proto::Envelope& enve
   const controller::Peer* peer = members_.at(sender);
   switch (envelope.body_case()) {
     case proto::Envelope::kJoin:
-      if (const auto name = members_.join(envelope.join(), sender)) {
-        barrier_.gone(*name);
-        members_.welcomed(*name, now_);
+      if (const auto name = members_.join(envelope.join(), sender, now_); name && *name) {
+        barrier_.gone(**name);
+        members_.welcomed(**name, now_);
       }
       break;
     case proto::Envelope::kHeartbeat:
@@ -221,7 +222,7 @@ void Peers::check() const {
     LFD_CHECK(is_node == (peer->role == proto::NODE), "the deployment's names are nodes' alone");
     if (peer->role == proto::DISPLAY && peer->lives()) ++displays;
   }
-  LFD_CHECK(members_.peers().size() <= kNodes.size() + 1, "who has gone is forgotten");
+  LFD_CHECK(members_.peers().size() <= kNodes.size() + 1 + controller::Membership::kGoneDisplays, "who has gone is forgotten");
   LFD_CHECK(displays <= 1, "there is one display");
   for (const std::string& node : members_.ready_nodes())
     LFD_CHECK(std::ranges::count(kNodes, node) == 1, "only nodes of the deployment draw");
@@ -229,7 +230,7 @@ void Peers::check() const {
   for (const proto::FrameReport& report : log_.reports(0, 1u << 20))
     LFD_CHECK(report.node_size() <= static_cast<int>(kNodes.size() + 1), "each reports a frame once");
   // Two frames of each node, with all their buffers.
-  LFD_CHECK(assembly_.waiting_images() <= 2 * 2 * display::FrameAssembly::kMaxImagesPerFrame,
+  LFD_CHECK(assembly_.waiting_images() <= std::size_t{2} * 2 * kModules * display::kBufferKinds,
             "credits bound what waits");
   LFD_CHECK(follower_.state() != nullptr, "a state stays");
   if (gatherer_.complete())

@@ -181,10 +181,13 @@ TEST(WireSocket, ForeignBytesAreCountedAndLeftOut) {
     foreign.send(zmq::str_buffer("part"), part < 6 ? zmq::send_flags::sndmore : zmq::send_flags::none);
   }
   foreign.send(zmq::message_t(), zmq::send_flags::none);  // an envelope of protocol 0
+  testing::internal::CaptureStderr();
+  foreign.send(zmq::str_buffer("\x22\x03\x0a\x01\xff"), zmq::send_flags::none);  // a hash that is no UTF-8
   Socket dealer = ok(connect_dealer(context, router.endpoint()));
   const auto until = Clock::now() + 30s;
-  while (router.refused() < 3 && Clock::now() < until) EXPECT_FALSE(next(router, 10ms));
-  EXPECT_EQ(router.refused(), 3u);
+  while (router.refused() < 4 && Clock::now() < until) EXPECT_FALSE(next(router, 10ms));
+  EXPECT_EQ(router.refused(), 4u);
+  EXPECT_EQ(testing::internal::GetCapturedStderr().find("libprotobuf"), std::string::npos) << "strangers fill no logs";
   send_when_connected(dealer, heartbeat("still alive"));
   EXPECT_TRUE(next(router));
 }

@@ -130,16 +130,6 @@ TEST(Membership, TakesOneDisplayAtATime) {
   EXPECT_TRUE(members.join(join_of("other screen", 2, proto::DISPLAY), "B", kStart));
 }
 
-TEST(Membership, ForgetsDisplaysThatHaveGone) {
-  Membership members = two_nodes();
-  for (int i = 0; i < 5; ++i) {
-    const std::string name = "display-" + std::to_string(i);
-    ASSERT_TRUE(members.join(join_of(name, 1, proto::DISPLAY), name));
-    EXPECT_EQ(members.peers().size(), 3U) << "with the nodes";
-    EXPECT_EQ(members.leave(name), name);
-  }
-}
-
 TEST(Membership, KeepsAndRepeatsNothingThatIsTooLong) {
   Membership members = two_nodes();
   const std::string much(1000, 'x');
@@ -149,8 +139,8 @@ TEST(Membership, KeepsAndRepeatsNothingThatIsTooLong) {
   joins[2].set_calibration_hash(much);
   joins[3].set_images_endpoint(much);
   for (const proto::Join& join : joins)
-    EXPECT_EQ(members.join(join, "A").error().message(), "a name, version, hash or address that is too long");
-  ASSERT_TRUE(members.join(join_of("left"), "A"));
+    EXPECT_EQ(members.join(join, "A", kStart).error().message(), "a name, version, hash or address that is too long");
+  ASSERT_TRUE(members.join(join_of("left"), "A", kStart));
   members.holds("A", much, false);
   EXPECT_LT(members.find("left")->state_hash.size(), 100U);
 }
