@@ -177,6 +177,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   add_bench_ao(*bench, exit_code);
   add_bench_cluster(*bench, exit_code);
   add_bench_soak(*bench, exit_code);
+  add_bench_stream(*bench, exit_code);
 }
 
 }  // namespace lfd

@@ -14,5 +14,6 @@ void end_bench_by_signal(int);
 void add_bench_ao(CLI::App& bench, int& exit_code);
 void add_bench_cluster(CLI::App& bench, int& exit_code);
 void add_bench_soak(CLI::App& bench, int& exit_code);
+void add_bench_stream(CLI::App& bench, int& exit_code);
 
 }  // namespace lfd

@@ -17,7 +17,9 @@ proto::Envelope empty_credit() {
 
 void DisplayLoop::hear_images() {
   const Clock::time_point now = Clock::now();
-  while (auto message = images_.receive()) {
+  for (int i = 0; i < kImagesPerPass; ++i) {
+    auto message = images_.receive();
+    if (!message) break;
     senders_.heard(message->peer, now);
     if (message->envelope.has_hello()) hear_hello(*message, now);
     if (message->envelope.has_image()) hear_image(std::move(*message));

@@ -22,6 +22,10 @@
 
 namespace lfd::display {
 
+// So many images are taken at once before frames are shown and credits go out: with more, nodes wait for credits, and
+// what is shown waits in memory.
+inline constexpr int kImagesPerPass = 8;
+
 inline constexpr int kBufferKinds = proto::BufferKind_ARRAYSIZE;
 
 struct ReceivedImage {

@@ -5,6 +5,7 @@
 #include "base/command_line.h"
 #include "base/descriptors.h"
 #include "base/file.h"
+#include "base/large_blocks.h"
 #include "base/log.h"
 #include "display/contact_sheet.h"
 #include "display/daemon.h"
@@ -153,6 +154,7 @@ int main_of_display(int argc, char** argv) {
     return wrong_use(Error("where is the controller? Say --controller, or give a deployment file"));
   }
   start_log(daemon.name, level);
+  keep_large_blocks();
   if (!out.empty()) daemon.out = out;
   join.images_given = images->count() > 0;
   const Status status = app.got_subcommand("view")    ? view(view_options)

@@ -1,9 +1,8 @@
 // Frames through the node: begin, drawn, ready, and the images on their way.
-#include <malloc.h>
-
 #include <algorithm>
 
 #include "base/fault.h"
+#include "base/large_blocks.h"
 #include "base/log.h"
 #include "proto/state.h"
 #include "rendernode/node/daemon.h"
@@ -12,9 +11,6 @@ namespace lfd::node {
 namespace {
 
 constexpr std::size_t kMostBegun = 8;
-
-// What a thread with a GL context leaves behind when it ends is free, but glibc would keep it.
-void give_memory_back() { ::malloc_trim(0); }
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// lfd bench frame, ao and cluster to their ends: what they print and leave.
+// lfd bench frame, ao, cluster and stream to their ends: what they print and leave.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,6 +57,22 @@ TEST(LfdBench, AoLeavesTablesPlotsAndPictures) {
   const auto json = nlohmann::json::parse(*read_file(bench.folder() / "ao/ao.json"));
   EXPECT_GT(json["rows"].size(), 5U);
   EXPECT_EQ(json["rows"][0]["method"], "schmitt");
+}
+
+TEST(LfdBench, StreamMeasuresEncodingsAndThroughput) {
+  const Workbench bench(ImageSize{64, 48});
+  const auto lfd =
+      start_program("lfd", {"bench", "stream", bench.deployment("sink: NONE", "w.textproto"), "--module", "1,2",
+                            "--repeats", "1", "--rounds", "1", "--round-mib", "64", "--out", bench.folder() / "out"});
+  const auto exit = lfd->wait(kClusterPatience);
+  // On a busy machine a single round says nothing of the bound.
+  ASSERT_TRUE(exit && exit->signal == 0 && exit->code < 2) << testing::PrintToString(lfd->lines());
+  const auto csv = read_file(bench.folder() / "out/stream.csv");
+  ASSERT_TRUE(csv);
+  for (const char* row :
+       {",color,raw,2,24576,24576,1.0000,", ",color,jpeg 90,2,", ",depth,zstd 19,2,", "\n2097152,32,", "\n3145728,32,"})
+    EXPECT_THAT(*csv, testing::HasSubstr(row));
+  EXPECT_TRUE(std::filesystem::is_regular_file(bench.folder() / "out/stream-plane.svg"));
 }
 
 TEST(LfdBench, AoSaysWhatWasMeant) {
