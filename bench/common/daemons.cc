@@ -3,6 +3,8 @@
 
 #include <signal.h>
 
+#include <algorithm>
+
 namespace lfd::bench {
 namespace {
 
@@ -16,7 +18,8 @@ Result<Process*> Daemons::start(const std::string& name, Start how) {
   std::vector<std::string> command = std::move(how.prefix);
   command.push_back((programs_ / (is_node ? "lfd-rendernode" : "lfd-" + name)).string());
   command.push_back(deployment_.string());
-  if (name == "controller") command.insert(command.end(), {"--log-level", "debug"});
+  const bool says_level = std::ranges::find(how.more, "--log-level") != how.more.end();
+  if (name == "controller" && !says_level) command.insert(command.end(), {"--log-level", "debug"});
   if (name == "display") command.insert(command.end(), {"--out", shown_.string()});
   if (is_node) command.insert(command.end(), {"--name", name});
   command.insert(command.end(), how.more.begin(), how.more.end());

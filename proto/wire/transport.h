@@ -35,6 +35,9 @@ struct Socket::Transport {
   }
 
   ~Transport() {
+    // Before its listener goes: the library's own thread would wait for it for ever, and nothing would be sent any
+    // more.
+    if (handshakes) ::zmq_socket_monitor(zmq.handle(), nullptr, 0);
     if (!ipc_file.empty()) ::unlink(ipc_file.c_str());
   }
 };

@@ -162,8 +162,8 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   gatherer_.ask_again();
   LFD_TRY_STATUS(take_share(message.share(), *display, {message.modules().begin(), message.modules().end()}));
   follower_ = {};
-  take_snapshot(message.snapshot());
   images_endpoint_.clear();  // greet it anew, wherever it is
+  take_snapshot(message.snapshot());
   use_images_endpoint(message.images_endpoint());
   welcome_ = true;
   stats_.joined(static_cast<std::size_t>(message.modules_size()));

@@ -82,7 +82,8 @@ class Daemon {
   // These are its modules from now on; what it drew of others ends. The thread that draws them stays where it draws the
   // very same.
   Status take_share(std::uint64_t share, const DisplayCalibration& display, std::vector<std::uint32_t> modules);
-  bool can_draw() const { return !drawing_ || drawing_started_; }
+  // The context is there, and the display takes images.
+  bool can_draw() const;
   void retire_drawing();
   void hear_state();
   void take_snapshot(const proto::Snapshot& snapshot);

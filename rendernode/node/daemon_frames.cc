@@ -14,6 +14,11 @@ constexpr std::size_t kMostBegun = 8;
 
 }  // namespace
 
+bool Daemon::can_draw() const {
+  const bool has_display = sink_ == proto::Deployment::DISPLAY && !images_endpoint_.empty();
+  return !drawing_ || (drawing_started_ && (!has_display || outbox_.is_known()));
+}
+
 bool Daemon::draws(const proto::BeginFrame& begin) const {
   return std::ranges::find(begin.node(), options_.name) != begin.node().end();
 }
@@ -210,7 +215,10 @@ void Daemon::use_images_endpoint(const std::string& endpoint) {
 void Daemon::hear_display() {
   if (!images_) return;
   while (const auto message = images_->receive()) {
-    if (message->envelope.has_credit()) outbox_.credit_came(message->envelope.credit());
+    if (!message->envelope.has_credit()) continue;
+    const bool was_known = outbox_.is_known();
+    outbox_.credit_came(message->envelope.credit());
+    if (!was_known && outbox_.is_known()) next_words_ = Clock::now();  // the controller may count on this node
   }
   if (!outbox_.greets(Clock::now())) return;
   proto::Envelope hello;

@@ -41,6 +41,9 @@ class ImageOutbox {
   // Takes a frame's images; only while idle.
   Load push(std::vector<OutgoingImage> images);
 
+  // The display has greeted back: images will be taken.
+  bool is_known() const { return known_; }
+
   // Forgets the frame on its way: it is of no use any more.
   void clear();
 

@@ -222,7 +222,8 @@ void Peers::check() const {
     LFD_CHECK(is_node == (peer->role == proto::NODE), "the deployment's names are nodes' alone");
     if (peer->role == proto::DISPLAY && peer->lives()) ++displays;
   }
-  LFD_CHECK(members_.peers().size() <= kNodes.size() + 1 + controller::Membership::kGoneDisplays, "who has gone is forgotten");
+  LFD_CHECK(members_.peers().size() <= kNodes.size() + 1 + controller::Membership::kGoneDisplays,
+            "who has gone is forgotten");
   LFD_CHECK(displays <= 1, "there is one display");
   for (const std::string& node : members_.ready_nodes())
     LFD_CHECK(std::ranges::count(kNodes, node) == 1, "only nodes of the deployment draw");

@@ -257,10 +257,7 @@ TEST(Architecture, FilesAreShort) {
 TEST(Architecture, NothingIsLeftToDo) {
   for (const Source& source : sources()) {
     for (const std::string& line : source.lines) {
-      for (const char* const word : {"TO"
-                                     "DO",
-                                     "FIX"
-                                     "ME"}) {
+      for (const std::string& word : {std::string("TO") + "DO", std::string("FIX") + "ME"}) {
         EXPECT_EQ(line.find(word), std::string::npos) << source.path << ": " << line;
       }
     }
