@@ -31,9 +31,19 @@ void FrameLog::begun(std::uint64_t frame, const RegionOfInterest& roi, const std
   report.set_roi_diagonal(roi.diagonal_m());
   report.set_state_hash(state_hash);
   entries_.push_back({std::move(report), now});
-  if (entries_.size() <= kRemembered) return;
-  report_bytes_ -= entries_.front().report_bytes;
-  entries_.pop_front();
+  forget_oldest();
+}
+
+void FrameLog::forget_oldest() {
+  while (entries_.size() > remembered_) {
+    report_bytes_ -= entries_.front().report_bytes;
+    entries_.pop_front();
+  }
+}
+
+void FrameLog::nobody_wants_them() {
+  remembered_ = kUsuallyRemembered;
+  forget_oldest();
 }
 
 FrameLog::Entry* FrameLog::find(std::uint64_t frame) {

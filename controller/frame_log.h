@@ -1,6 +1,7 @@
 // What is remembered of the last frames: their geometry, what each node reported, when they were swapped and shown.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -41,6 +42,12 @@ class FrameLog {
   std::vector<proto::FrameReport> reports(std::uint64_t first, std::uint64_t count) const;
 
   static constexpr std::size_t kRemembered = 10000;
+  // Of a show that nobody asks to be told of: enough for what is under way and late.
+  static constexpr std::size_t kUsuallyRemembered = 64;
+
+  // So many frames are wanted, which begin from now on: they are remembered until nobody_wants_them().
+  void remember(std::size_t frames) { remembered_ = std::min(kRemembered, frames + kUsuallyRemembered); }
+  void nobody_wants_them();
   static constexpr std::size_t kMostReport_bytes = std::size_t{256} << 20;
 
  private:
@@ -52,6 +59,9 @@ class FrameLog {
   };
   Entry* find(std::uint64_t frame);
 
+  void forget_oldest();
+
+  std::size_t remembered_ = kUsuallyRemembered;
   std::deque<Entry> entries_;  // by frame number
   RateWindow swaps_;
   std::size_t report_bytes_ = 0;

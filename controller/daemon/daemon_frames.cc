@@ -115,6 +115,7 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   reply(asked_->client, std::move(answer));
   if (!complete) pacing_.ask_for(0);
   asked_.reset();
+  log_.nobody_wants_them();
 }
 
 }  // namespace lfd::controller

@@ -99,6 +99,7 @@ Result<bool> Daemon::start_frames(const wire::Message& message) {
                        .time_modules = frames.time_modules(),
                        .error = {}};
   pacing_.ask_for(frames.count());
+  log_.remember(frames.count());
   if (const auto update = stage_.set_buffers(frames.buffers())) publish(*update);
   return true;
 }

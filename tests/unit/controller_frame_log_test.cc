@@ -62,6 +62,7 @@ TEST(FrameLog, MeasuresPositionsFromAFarRegionsCentre) {
 
 TEST(FrameLog, ForgetsTheOldest) {
   FrameLog log;
+  log.remember(FrameLog::kRemembered);
   for (std::uint64_t frame = 0; frame < FrameLog::kRemembered + 10; ++frame) log.begun(frame, doubled(), "h", kStart);
   ASSERT_EQ(log.reports(0, 11).size(), 1u);
   EXPECT_EQ(log.reports(0, 11)[0].frame(), 10u);
@@ -105,6 +106,18 @@ TEST(FrameLog, TellsTheRateOfTheLastSeconds) {
   }
   EXPECT_NEAR(log.frames_per_second(kStart + 5s), 100, 1e-6);
   EXPECT_EQ(log.frames_per_second(kStart + 1h), 0);
+}
+
+TEST(FrameLog, RemembersFewFramesUnlessTheyAreWanted) {
+  FrameLog log;
+  for (std::uint64_t frame = 0; frame < 1000; ++frame) log.begun(frame, doubled(), "h", kStart);
+  EXPECT_EQ(log.reports(0, 1000).size(), FrameLog::kUsuallyRemembered);
+  log.remember(500);
+  for (std::uint64_t frame = 1000; frame < 1500; ++frame) log.begun(frame, doubled(), "h", kStart);
+  EXPECT_EQ(log.reports(1000, 500).size(), 500U);
+  log.nobody_wants_them();
+  EXPECT_EQ(log.reports(0, 1500).size(), FrameLog::kUsuallyRemembered);
+  EXPECT_EQ(log.reports(1499, 1).size(), 1U);
 }
 
 }  // namespace
