@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/metric_server.h"
-#include "base/service.h"
 #include "base/now_and_then.h"
+#include "base/service.h"
 #include "base/signals.h"
 #include "controller/assignment.h"
 #include "controller/cluster_stats.h"
@@ -21,9 +21,9 @@
 #include "controller/join_limiter.h"
 #include "controller/membership.h"
 #include "controller/pacing.h"
+#include "controller/replay/replay.h"
 #include "controller/scene_change.h"
 #include "controller/shares.h"
-#include "controller/replay/replay.h"
 #include "controller/stage.h"
 
 namespace lfd::controller {
@@ -78,6 +78,8 @@ class Daemon {
   void welcome(const Peer& peer, Clock::time_point now);
   void peer_is_gone(const std::string& name, const char* why);
   void peer_is_back(const Peer& peer);
+  void refuse(const std::string& address, const std::string& reason);
+  proto::Snapshot snapshot() const;
   void send_snapshot(const std::string& address);
   void publish_images_endpoint();
   std::string images_endpoint() const;
@@ -108,6 +110,8 @@ class Daemon {
   void take_ready(const Peer& peer, const proto::Ready& ready);
   void finish(const FrameBarrier::Swap& swap, Clock::time_point now);
   void answer_frames_asked(Clock::time_point now);
+  // A display that died, or that lost images to a deadline, will not show the last frame.
+  bool is_never_shown(Clock::time_point now) const;
   bool has_display_sink() const;
 
   // daemon_replay.cc: a recorded show instead of a scene

@@ -83,11 +83,18 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   publish(std::move(envelope));
   log_.swapped(swap, stale, now);
   stats_.swapped(swap, now);
-  if (!has_display_sink()) log_.shown(swap.frame, now), stats_.shown({}, swap.frame, now);
+  if (!has_display_sink()) {
+    log_.shown(swap.frame, now);
+    stats_.shown({}, swap.frame, now);
+  }
   last_swap_ = now;
   late_ = {swap.missing.begin(), swap.missing.end()};
   log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun),
              stale.size());
+}
+
+bool Daemon::is_never_shown(Clock::time_point now) const {
+  return members_.display() == nullptr || (has_deadline() && last_swap_ && now - *last_swap_ > members_.patience());
 }
 
 void Daemon::answer_frames_asked(Clock::time_point now) {
@@ -95,17 +102,13 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   const std::uint64_t end = asked_->first + asked_->count;
   const bool swapped = log_.last_swapped() && *log_.last_swapped() + 1 >= end;
   const bool shown = swapped && log_.all_shown(asked_->first, asked_->count);
-  // A display that died, or that lost images to a deadline, will not show the frame.
-  const Clock::duration patience = 6 * options_.deployment.pacing.heartbeat;
-  const bool never_shown =
-      members_.display() == nullptr || (has_deadline() && last_swap_ && now - *last_swap_ > patience);
   const bool stuck = barrier_.in_flight() == 0 && std::ranges::all_of(assignment_, [&](const auto& entry) {
                        const Phase phase = members_.find(entry.first)->phase;
                        if (shares_.is_spare(entry.first)) return phase == Phase::kOut || phase == Phase::kAbsent;
                        return entry.second.empty() || phase == Phase::kOut;
                      });
   const bool failed = swapped && !asked_->error.empty();
-  const bool complete = swapped && (shown || never_shown || failed);
+  const bool complete = swapped && (shown || is_never_shown(now) || failed);
   if (!complete && !stuck) return;
 
   proto::Reply answer;

@@ -15,9 +15,7 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   if (!joined) {
     log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), joined.error().message());
     stats_.join_refused(join.name(), joined.error().message());
-    proto::Envelope refused;
-    refused.mutable_refused()->set_reason(joined.error().message());
-    return send(message.peer, refused);
+    return refuse(message.peer, joined.error().message());
   }
   if (!*joined) return log::debug("\"{}\" (process {}) comes under a name that may live", join.name(), join.process());
   const std::string& name = **joined;
@@ -33,11 +31,7 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
 
 void Daemon::take_heartbeat(const wire::Message& message) {
   const Peer* peer = members_.at(message.peer);
-  if (peer == nullptr) {
-    proto::Envelope refused;
-    refused.mutable_refused()->set_reason("not a member of this cluster");
-    return send(message.peer, refused);
-  }
+  if (peer == nullptr) return refuse(message.peer, "not a member of this cluster");
   const std::string& hash = message.envelope.heartbeat().state_hash();
   const Phase before = peer->phase;
   const bool can_draw = peer->role != proto::NODE || message.envelope.heartbeat().share() == shares_.number(peer->name);
@@ -63,8 +57,7 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
   welcome.set_may_drop(has_deadline());
   *welcome.mutable_stream() = deployment.message.stream();
   welcome.set_sink(static_cast<std::uint32_t>(deployment.message.sink()));
-  *welcome.mutable_snapshot()->mutable_state() = stage_.store().state();
-  welcome.mutable_snapshot()->set_images_endpoint(images_endpoint());
+  *welcome.mutable_snapshot() = snapshot();
   send(peer.address, envelope);
   members_.welcomed(peer.name, now);
 }
@@ -84,11 +77,23 @@ void Daemon::peer_is_back(const Peer& peer) {
   if (peer.role == proto::DISPLAY) publish_images_endpoint();
 }
 
+void Daemon::refuse(const std::string& address, const std::string& reason) {
+  proto::Envelope envelope;
+  envelope.mutable_refused()->set_reason(reason);
+  send(address, std::move(envelope));
+}
+
+proto::Snapshot Daemon::snapshot() const {
+  proto::Snapshot snapshot;
+  *snapshot.mutable_state() = stage_.store().state();
+  snapshot.set_images_endpoint(images_endpoint());
+  return snapshot;
+}
+
 void Daemon::send_snapshot(const std::string& address) {
   proto::Envelope envelope;
-  *envelope.mutable_snapshot()->mutable_state() = stage_.store().state();
-  envelope.mutable_snapshot()->set_images_endpoint(images_endpoint());
-  send(address, envelope);
+  *envelope.mutable_snapshot() = snapshot();
+  send(address, std::move(envelope));
 }
 
 void Daemon::publish_images_endpoint() {

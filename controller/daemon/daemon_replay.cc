@@ -57,11 +57,7 @@ void Daemon::drawn_of_replay(const Peer& peer, const proto::Ready& ready) {
 void Daemon::end_replay(Clock::time_point now) {
   if (end_ || !options_.replay || options_.replay->next() != nullptr || barrier_.in_flight() > 0) return;
   const auto last = options_.replay->last_frame();
-  // As answer_frames_asked: a display that died, or that lost images to a deadline, will not show the frame.
-  const Clock::duration patience = 6 * options_.deployment.pacing.heartbeat;
-  const bool never_shown =
-      members_.display() == nullptr || (has_deadline() && last_swap_ && now - *last_swap_ > patience);
-  if (last && !log_.all_shown(*last, 1) && !never_shown) return;
+  if (last && !log_.all_shown(*last, 1) && !is_never_shown(now)) return;
   log::info("{}", options_.replay->summary());
   end_ = "the recording is over";
 }

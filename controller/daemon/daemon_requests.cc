@@ -109,8 +109,7 @@ proto::Follow Daemon::follow() const {
   follow.set_state_endpoint(links_.state.endpoint());
   follow.set_bulk_endpoint(links_.bulk.endpoint());
   *follow.mutable_display() = write_calibration(options_.deployment.display);
-  *follow.mutable_snapshot()->mutable_state() = stage_.store().state();
-  follow.mutable_snapshot()->set_images_endpoint(images_endpoint());
+  *follow.mutable_snapshot() = snapshot();
   return follow;
 }
 

@@ -12,7 +12,6 @@ namespace lfd::controller {
 namespace {
 
 constexpr std::size_t kMostLetters = 64;  // of a peer's name
-constexpr int kHeartbeatsOfDoubt = 2;
 
 // Names stand in logs and statuses, addresses are passed on to nodes: both must be what they seem.
 Status check_words(const proto::Join& join, const Deployment& deployment) {
@@ -44,9 +43,7 @@ bool Daemon::lets_join(const wire::Message& message, Clock::time_point now) {
   if (may) return !seems_repeated(message, now);
   log::warn("a join{} is refused: {}", message.user.empty() ? "" : fmt::format(" of \"{}\"", message.user),
             may.error().message());
-  proto::Envelope refused;
-  refused.mutable_refused()->set_reason(may.error().message());
-  send(message.peer, refused);
+  refuse(message.peer, may.error().message());
   return false;
 }
 
@@ -57,7 +54,7 @@ bool Daemon::seems_repeated(const wire::Message& message, Clock::time_point now)
   const Peer* peer = members_.find(join.name());
   if (peer == nullptr || !peer->lives() || peer->address == message.peer || peer->process != join.process())
     return false;
-  const auto doubt = kHeartbeatsOfDoubt * options_.deployment.pacing.heartbeat;
+  const auto doubt = Membership::kHeartbeatsOfDoubt * options_.deployment.pacing.heartbeat;
   if (!peer->last_heard || now - *peer->last_heard >= doubt) return false;
   const bool still_there = static_cast<bool>(links_.control.send_to(peer->address, proto::Envelope()));
   if (still_there) log::debug("\"{}\" joins from another place, and is heard where it was", peer->name);

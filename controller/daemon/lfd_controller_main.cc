@@ -8,9 +8,9 @@
 #include "base/signals.h"
 #include "calibration/check/acceptance.h"
 #include "controller/daemon/daemon.h"
+#include "controller/daemon/replay_options.h"
 #include "proto/deployment_keys.h"
 #include "proto/key_files.h"
-#include "controller/daemon/replay_options.h"
 #include "proto/settings.h"
 #include "proto/settings_effect.h"
 
