@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -20,8 +21,11 @@
 namespace lfd::bench {
 namespace {
 
-constexpr auto kPatience = std::chrono::minutes(5);  // for all frames of one cluster, on a loaded machine
-constexpr int kWarmUp = 20;                          // frames: the first ones compile shaders
+// For a frame, on a loaded machine: the first one waits for all nodes.
+constexpr auto kPatience = std::chrono::minutes(5);
+constexpr int kWarmUp = 20;                      // frames: the first ones compile shaders
+constexpr auto kRest = std::chrono::seconds(3);  // without frames: what heartbeats and pulses take
+constexpr double kTurn = 0.01;                   // of the scene from frame to frame, radians
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -42,10 +46,35 @@ Status write_files(const TemporaryFolder& folder, const ClusterRow& row, ImageSi
   return write_file(folder.path() / "cluster.textproto", text);
 }
 
-Result<proto::Reply> ask_frames(ControlClient& client, int count) {
+Result<proto::Status> ask_status(ControlClient& client) {
   proto::Request request;
-  request.mutable_frames()->set_count(static_cast<std::uint32_t>(count));
+  request.mutable_status();
+  LFD_TRY(proto::Reply reply, client.ask(request, kPatience));
+  return std::move(*reply.mutable_status());
+}
+
+Result<proto::Reply> ask_frame(ControlClient& client) {
+  proto::Request request;
+  request.mutable_frames()->set_count(1);
   return client.ask(request, kPatience);
+}
+
+// Turns the scene about its upright axis, a little for each frame, and has the frame drawn and shown before the next:
+// the images of a scene at rest would not be sent.
+Result<proto::Reply> ask_frames(ControlClient& client, int count) {
+  LFD_TRY(const proto::Status status, ask_status(client));
+  proto::Request turn;
+  *turn.mutable_roi() = status.roi();
+  proto::Reply all;
+  for (int i = 1; i <= count; ++i) {
+    const double half_angle = kTurn * i / 2;
+    turn.mutable_roi()->mutable_world_orientation()->set_y(std::sin(half_angle));
+    turn.mutable_roi()->mutable_world_orientation()->set_w(std::cos(half_angle));
+    LFD_TRY_STATUS(client.ask(turn, kPatience));
+    LFD_TRY(const proto::Reply reply, ask_frame(client));
+    all.MergeFrom(reply);
+  }
+  return all;
 }
 
 Result<double> scene_bytes(const std::string& name) {
@@ -62,31 +91,38 @@ struct Sample {
 };
 
 Result<Sample> sample(ControlClient& client, int controller) {
-  proto::Request request;
-  request.mutable_status();
-  LFD_TRY(const proto::Reply reply, client.ask(request, kPatience));
+  LFD_TRY(const proto::Status status, ask_status(client));
   const auto processor = processor_time_s(controller);
   if (!processor) return Error("the controller's processor time cannot be read");
-  return Sample{*processor, reply.status().published_bytes(), Clock::now()};
+  return Sample{*processor, status.published_bytes(), Clock::now()};
 }
 
-void fill(ClusterRow& row, const proto::Reply& frames, const Sample& before, const Sample& after) {
+double seconds_between(const Sample& a, const Sample& b) { return std::chrono::duration<double>(b.at - a.at).count(); }
+
+void fill(ClusterRow& row, const proto::Reply& frames, const Sample& before, const Sample& after,
+          const Sample& rested) {
   const double count = frames.frame_size();
   std::vector<double> shown, swapped;
-  double reports = 0;
+  double reports = 0, images = 0;
   for (const proto::FrameReport& frame : frames.frame()) {
     shown.push_back(frame.begin_to_shown_ms());
     swapped.push_back(frame.begin_to_swap_ms());
-    for (const proto::NodeReport& node : frame.node()) reports += static_cast<double>(node.ByteSizeLong());
+    for (const proto::NodeReport& node : frame.node()) {
+      reports += static_cast<double>(node.ByteSizeLong());
+      images += static_cast<double>(node.image_bytes());
+    }
   }
   row.shown_median_ms = percentile(shown, 0.5);
   row.shown_99_ms = percentile(shown, 0.99);
   row.swap_median_ms = percentile(swapped, 0.5);
   row.swap_99_ms = percentile(swapped, 0.99);
-  row.frames_per_s = count / std::chrono::duration<double>(after.at - before.at).count();
-  row.controller_us = 1e6 * (after.processor_s - before.processor_s) / count;
+  const double took_s = seconds_between(before, after);
+  row.frames_per_s = count / took_s;
+  row.at_rest_us = 1e6 * (rested.processor_s - after.processor_s) / seconds_between(after, rested);
+  row.controller_us = (1e6 * (after.processor_s - before.processor_s) - row.at_rest_us * took_s) / count;
   row.state_bytes = static_cast<double>(after.published - before.published) / count;
   row.report_bytes = reports / count;
+  row.image_bytes = images / count;
 }
 
 Result<ClusterRow> measure(ClusterRow row, const ClusterBenchOptions& options, StopSignals& signals) {
@@ -94,19 +130,20 @@ Result<ClusterRow> measure(ClusterRow row, const ClusterBenchOptions& options, S
   const std::string control = free_endpoint();
   LFD_TRY_STATUS(write_files(folder, row, options.image, control));
   LFD_TRY(row.scene_bytes, scene_bytes(row.scene));
-  Daemons daemons(own_folder(), folder.path() / "cluster.textproto", folder.path() / "shown");
+  Daemons daemons(own_folder(), folder.path() / "cluster.textproto", {});
   LFD_TRY(Process* const controller, daemons.start("controller", {.more = {"--idle", "--log-level", "warn"}}));
   LFD_TRY_STATUS(daemons.start("display", {.more = {"--controller", control}}));
   for (int node = 0; node < row.nodes; ++node) LFD_TRY_STATUS(daemons.start(fmt::format("node-{}", node)));
   LFD_TRY(ControlClient client, ControlClient::connect(control));
-  LFD_TRY(const proto::Reply first, ask_frames(client, kWarmUp));
-  for (const proto::NodeReport& node : first.frame(0).node())
-    row.image_bytes += static_cast<double>(node.image_bytes());
+  LFD_TRY_STATUS(ask_frame(client));  // answered once the scene and all nodes are there
+  LFD_TRY_STATUS(ask_frames(client, kWarmUp));
   if (signals.take()) return Error("ended by a signal");
   LFD_TRY(const Sample before, sample(client, controller->id()));
   LFD_TRY(const proto::Reply frames, ask_frames(client, options.frames));
   LFD_TRY(const Sample after, sample(client, controller->id()));
-  fill(row, frames, before, after);
+  std::this_thread::sleep_for(kRest);
+  LFD_TRY(const Sample rested, sample(client, controller->id()));
+  fill(row, frames, before, after, rested);
   LFD_TRY_STATUS(client.quit(kPatience));
   return row;
 }

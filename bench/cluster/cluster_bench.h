@@ -27,12 +27,12 @@ struct ClusterRow {
   double frames_per_s = 0;
   double shown_median_ms = 0, shown_99_ms = 0;  // begin to shown
   double swap_median_ms = 0, swap_99_ms = 0;    // begin to swap
-  // The controller's, per frame.
-  double controller_us = 0;  // processor time
+  double at_rest_us = 0;                        // the controller's processor time per second without frames
+  // Per frame.
+  double controller_us = 0;  // the controller's processor time beyond that at rest, its answers to the bench included
   double state_bytes = 0;    // published; every node and the display get them
   double report_bytes = 0;   // of all nodes together
-  // Payloads of all nodes together, of the first frame: later ones of a scene at rest are not sent again.
-  double image_bytes = 0;
+  double image_bytes = 0;    // payloads of all nodes together; unchanged images are not sent
 };
 
 // cost = constant + per_node * nodes, by least squares.
@@ -49,8 +49,9 @@ struct ClusterTable {
   Line controller_line(int modules) const;
 };
 
-// Each cluster runs in a temporary folder, with the programs beside this one; it draws as fast as it can, a scene at
-// rest. Errors: a cluster that does not run; a signal.
+// Each cluster runs in a temporary folder, with the programs beside this one. For every frame the scene turns (an
+// update of the state), and the next begins when the last is shown. The display writes nothing. Errors: a cluster that
+// does not run; a signal.
 Result<ClusterTable> cluster_bench(const ClusterBenchOptions& options, StopSignals& signals,
                                    const std::function<void(const ClusterRow&)>& progress);
 

@@ -8,16 +8,18 @@ namespace {
 
 std::string line_of(const ClusterRow& row) {
   return fmt::format(
-      "| {} | {} | {} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} |\n",
+      "| {} | {} | {} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | "
+      "{:.1f} |\n",
       row.modules, row.nodes, row.scene, row.scene_bytes / 1e6, row.frames_per_s, row.swap_median_ms, row.swap_99_ms,
-      row.shown_median_ms, row.shown_99_ms, row.controller_us, row.state_bytes, row.report_bytes,
+      row.shown_median_ms, row.shown_99_ms, row.controller_us, row.at_rest_us, row.state_bytes, row.report_bytes,
       row.image_bytes / 1e3);
 }
 
 constexpr const char* kHead =
-    "| modules | nodes | scene | scene MB | frames/s | swap ms | 99 % | shown ms | 99 % | controller us | state B | "
+    "| modules | nodes | scene | scene MB | frames/s | swap ms | 99 % | shown ms | 99 % | controller us | at rest us/s "
+    "| state B | "
     "reports B | "
-    "images kB |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    "images kB |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 }  // namespace
 
@@ -39,12 +41,12 @@ std::string text_of(const ClusterTable& table) {
 std::string csv_of(const ClusterTable& table) {
   std::string csv =
       "series,modules,nodes,scene,scene_bytes,frames_per_s,swap_median_ms,swap_99_ms,shown_median_ms,shown_99_ms,"
-      "controller_us,state_bytes,report_bytes,image_bytes\n";
+      "controller_us,at_rest_us_per_s,state_bytes,report_bytes,image_bytes\n";
   const auto add = [&](const char* series, const ClusterRow& row) {
-    csv += fmt::format("{},{},{},{},{:.0f},{:.2f},{:.3f},{:.3f},{:.3f},{:.3f},{:.1f},{:.1f},{:.1f},{:.0f}\n", series,
-                       row.modules, row.nodes, csv_cell(row.scene), row.scene_bytes, row.frames_per_s,
+    csv += fmt::format("{},{},{},{},{:.0f},{:.2f},{:.3f},{:.3f},{:.3f},{:.3f},{:.1f},{:.1f},{:.1f},{:.1f},{:.0f}\n",
+                       series, row.modules, row.nodes, csv_cell(row.scene), row.scene_bytes, row.frames_per_s,
                        row.swap_median_ms, row.swap_99_ms, row.shown_median_ms, row.shown_99_ms, row.controller_us,
-                       row.state_bytes, row.report_bytes, row.image_bytes);
+                       row.at_rest_us, row.state_bytes, row.report_bytes, row.image_bytes);
   };
   for (const ClusterRow& row : table.rows) add("nodes", row);
   for (const ClusterRow& row : table.by_scene) add("scenes", row);

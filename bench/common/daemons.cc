@@ -20,7 +20,7 @@ Result<Process*> Daemons::start(const std::string& name, Start how) {
   command.push_back(deployment_.string());
   const bool says_level = std::ranges::find(how.more, "--log-level") != how.more.end();
   if (name == "controller" && !says_level) command.insert(command.end(), {"--log-level", "debug"});
-  if (name == "display") command.insert(command.end(), {"--out", shown_.string()});
+  if (name == "display" && !shown_.empty()) command.insert(command.end(), {"--out", shown_.string()});
   if (is_node) command.insert(command.end(), {"--name", name});
   command.insert(command.end(), how.more.begin(), how.more.end());
   LFD_TRY(daemons_[name],

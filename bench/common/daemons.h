@@ -21,7 +21,8 @@ class Daemons {
     std::vector<std::string> more = {};    // what it ends with
   };
 
-  // `programs`: the folder of lfd-controller, lfd-rendernode and lfd-display. The display writes its frames to `shown`.
+  // `programs`: the folder of lfd-controller, lfd-rendernode and lfd-display. The display writes its frames to `shown`;
+  // empty: to nowhere.
   Daemons(std::filesystem::path programs, std::filesystem::path deployment, std::filesystem::path shown)
       : programs_(std::move(programs)), deployment_(std::move(deployment)), shown_(std::move(shown)) {}
 
