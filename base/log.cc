@@ -6,8 +6,12 @@
 
 #include <memory>
 
+#include "base/printable.h"
+
 namespace lfd {
 namespace {
+
+constexpr std::size_t kMostLetters = 16384;  // of one event: a shader compiler may have much to say
 
 spdlog::level::level_enum spdlog_level(log::Level level) {
   switch (level) {
@@ -31,7 +35,12 @@ namespace log {
 
 bool is_on(Level level) { return spdlog::default_logger_raw()->should_log(spdlog_level(level)); }
 
-void write(Level level, const std::string& text) { spdlog::default_logger_raw()->log(spdlog_level(level), text); }
+void write(Level level, const std::string& text) {
+  std::string_view shown = text;
+  const bool too_long = shown.size() > kMostLetters;
+  if (too_long) shown = shown.substr(0, kMostLetters);
+  spdlog::default_logger_raw()->log(spdlog_level(level), printable_lines(shown) + (too_long ? " ..." : ""));
+}
 
 }  // namespace log
 

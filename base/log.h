@@ -1,4 +1,4 @@
-// The log of a process: one line an event, to standard error. spdlog writes it (log.cc is its one door): its headers
+// The log of a process: one line an event, to standard error, without control characters. spdlog writes it (log.cc is its one door): its headers
 // would cost every file seconds to compile.
 #pragma once
 

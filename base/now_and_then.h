@@ -1,7 +1,7 @@
 // Says when a warning is due that strangers could otherwise repeat at will.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 
 #include "base/clock.h"
 
@@ -11,15 +11,22 @@ class NowAndThen {
  public:
   static constexpr Clock::duration kPause = std::chrono::seconds(5);
 
-  // At once, and then once in kPause.
+  // `at_once`: how many in a row.
+  explicit NowAndThen(int at_once = 1) : at_once_(at_once) {}
+
+  // At once, and then so many in kPause.
   bool due(Clock::time_point now) {
-    if (last_ && now - *last_ < kPause) return false;
-    last_ = now;
-    return true;
+    if (now >= next_) {
+      next_ = now + kPause;
+      said_ = 0;
+    }
+    return said_++ < at_once_;
   }
 
  private:
-  std::optional<Clock::time_point> last_;
+  int at_once_;
+  std::int64_t said_ = 0;
+  Clock::time_point next_ = Clock::time_point::min();
 };
 
 }  // namespace lfd

@@ -23,6 +23,12 @@ bool write_all(int descriptor, std::string_view content) {
   return true;
 }
 
+Status check_owner(const std::filesystem::path& path, ::uid_t owner) {
+  if (owner == ::geteuid() || owner == 0) return {};
+  return Error(
+      fmt::format("{}: belongs to user {}, neither to this one ({}) nor to root", path.string(), owner, ::geteuid()));
+}
+
 }  // namespace
 
 Status create_secret_file(const std::filesystem::path& path, std::string_view content) {
@@ -40,9 +46,22 @@ Status check_secret_file(const std::filesystem::path& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0)
     return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-  if ((info.st_mode & 077) == 0) return {};
-  return Error(fmt::format("{}: is open to others (mode {:04o}); a secret key is its owner's alone: chmod 600",
-                           path.string(), info.st_mode & 07777));
+  if ((info.st_mode & 077) != 0) {
+    return Error(fmt::format("{}: is open to others (mode {:04o}); a secret key is its owner's alone: chmod 600",
+                             path.string(), info.st_mode & 07777));
+  }
+  return check_owner(path, info.st_uid);
+}
+
+Status check_trusted_file(const std::filesystem::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0)
+    return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  if ((info.st_mode & 022) != 0) {
+    return Error(fmt::format("{}: others may write to it (mode {:04o}), and let in whom they like: chmod go-w",
+                             path.string(), info.st_mode & 07777));
+  }
+  return check_owner(path, info.st_uid);
 }
 
 }  // namespace lfd

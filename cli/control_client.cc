@@ -7,6 +7,21 @@
 #include "proto/wire/poll.h"
 
 namespace lfd {
+namespace {
+
+// The state of a Follow travels as the payload.
+proto::Reply whole_reply(const wire::Message& message) {
+  proto::Reply reply = message.envelope.reply();
+  if (!reply.has_follow()) return reply;
+  const std::span<const std::byte> bytes = message.payload.bytes();
+  if (!reply.mutable_follow()->mutable_snapshot()->ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    reply.clear_follow();
+    reply.set_error("the controller's state cannot be read");
+  }
+  return reply;
+}
+
+}  // namespace
 
 Result<ControlClient> ControlClient::connect(const std::string& endpoint, const std::string& key_file) {
   LFD_TRY(auto context, wire::open_context(key_file));
@@ -46,7 +61,7 @@ std::optional<proto::Reply> ControlClient::receive(std::uint64_t id, Clock::dura
         reply.set_error(message->envelope.refused().reason());
         return reply;
       }
-      if (message->envelope.has_reply() && message->envelope.reply().id() == id) return message->envelope.reply();
+      if (message->envelope.has_reply() && message->envelope.reply().id() == id) return whole_reply(*message);
     }
     const auto now = Clock::now();
     if (now >= deadline) return std::nullopt;

@@ -55,10 +55,19 @@ Result<std::vector<std::string>> make_keys(const Deployment& deployment, const K
                                  proto::Allowed::Right_Name(right)));
       continue;
     }
+    const fs::path key_path = *folder / fmt::format("{}{}", name, kKeySuffix);
+    // Not taken up again: its line may have been removed so that it opens nothing any more.
+    if (fs::exists(key_path, failure)) {
+      return Error(fmt::format("{}: is there, and {} does not list it; remove it, and a new key is made",
+                               key_path.string(), list_path.string()));
+    }
     LFD_TRY(const proto::KeyFile key, wire::make_key(name));
-    LFD_TRY_STATUS(create_key_file(*folder / fmt::format("{}{}", name, kKeySuffix), key));
+    LFD_TRY_STATUS(create_key_file(key_path, key));
     list.members.push_back({name, key.public_key(), {right}});
-    LFD_TRY_STATUS(write_allow_list(list_path, list));  // with every key: an end halfway leaves what fits together
+    if (const Status written = write_allow_list(list_path, list); !written) {
+      fs::remove(key_path, failure);  // nobody would be let in with it
+      return written.error();
+    }
     made.push_back(name);
   }
   return made;

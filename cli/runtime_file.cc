@@ -35,6 +35,7 @@ Status own_folder_only(const fs::path& folder) {
   if (!S_ISDIR(info.st_mode) || info.st_uid != ::getuid()) {
     return Error(fmt::format("{}: is not a folder of this user", folder.string()));
   }
+  if ((info.st_mode & 022) != 0) return Error(fmt::format("{}: others may write to it: chmod go-w", folder.string()));
   return {};
 }
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/log.h"
+#include "base/printable.h"
 #include "cli/setting_names.h"
-#include "cli/terminal.h"
 #include "cli/watch_table.h"
 #include "proto/module_ranges.h"
 #include "proto/settings.h"

@@ -17,17 +17,6 @@ bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 
 
 }  // namespace
 
-std::string printable(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool is_c1 = c == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
-    if (is_c1) ++i;
-    out += is_c1 || c < 0x20 || c == 0x7f ? '?' : text[i];
-  }
-  return out;
-}
-
 std::string cut_to(std::string_view text, int width, int height) {
   std::string out;
   int column = 0, line = 0;

@@ -1,13 +1,10 @@
-// Text for a terminal: foreign text made harmless, and a table that is drawn again and again in one place.
+// Text for a terminal: a table that is drawn again and again in one place.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 namespace lfd {
-
-// The text with a question mark in place of every control character: what peers call themselves reaches a screen.
-std::string printable(std::string_view text);
 
 // The first `width` characters of every line, and the first `height` lines.
 std::string cut_to(std::string_view text, int width, int height);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/log.h"
-#include "cli/terminal.h"
+#include "base/printable.h"
 #include "proto/module_ranges.h"
 
 namespace lfd {

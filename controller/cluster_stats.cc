@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kRemembered = 256;   // frames; a display that shows later than that is hardly one
 constexpr std::size_t kMostOfAName = 100;  // of a stranger
+constexpr std::size_t kMostOfAFault = 500;
 
 }  // namespace
 
@@ -58,8 +59,9 @@ void ClusterStats::shown(const std::string& display, std::uint64_t frame, Clock:
   begin_to_shown_.observe_ms(*after_ms);
 }
 
-void ClusterStats::fault(const std::string& peer, const std::string& what) {
+void ClusterStats::fault(const std::string& peer, const std::string& why) {
   ++faults_;
+  const std::string_view what = std::string_view(why).substr(0, kMostOfAFault);
   const std::string now = time_of_day();
   last_fault_ = peer.empty() ? fmt::format("{} {}", now, what) : fmt::format("{} \"{}\": {}", now, peer, what);
   const auto entry = peers_.find(peer);

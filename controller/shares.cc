@@ -30,7 +30,8 @@ void Shares::give_back(const std::map<std::string, Presence>& presence) {
   for (const std::string& spare : spares_) {
     Held& held = held_.at(spare);
     if (!held.active) continue;
-    const bool owner_draws = give_back_ == proto::Deployment::WHEN_READY && presence.at(held.owner) == Presence::kReady;
+    const bool may_keep = give_back_ == proto::Deployment::NEVER && presence.at(spare) == Presence::kReady;
+    const bool owner_draws = presence.at(held.owner) == Presence::kReady && !may_keep;
     if (owner_draws || presence.at(spare) == Presence::kAway) held.active = false;
   }
 }

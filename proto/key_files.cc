@@ -93,6 +93,7 @@ Status create_key_file(const fs::path& path, const proto::KeyFile& key) {
 
 Result<AllowList> read_allow_list(const fs::path& path) {
   LFD_TRY_STATUS(check_there(path));
+  LFD_TRY_STATUS(check_trusted_file(path));
   proto::AllowList message;
   LFD_TRY(const TextPlaces places, read_text_file(path, message));
   AllowList list;
@@ -115,7 +116,12 @@ Status write_allow_list(const fs::path& path, const AllowList& list) {
     m.set_public_key(member.public_key);
     for (const Right right : member.rights) m.add_right(right);
   }
-  return write_file(path, print_text(message));
+  LFD_TRY_STATUS(write_file(path, print_text(message)));
+  // Whatever the umask says: a list that others may write to is refused.
+  std::error_code failure;
+  fs::permissions(path, fs::perms::group_write | fs::perms::others_write, fs::perm_options::remove, failure);
+  if (failure) return Error(fmt::format("{}: {}", path.string(), failure.message()));
+  return {};
 }
 
 Result<KeyRing> read_key_ring(const fs::path& key_file) {

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 
-#include "base/log.h"
-
 namespace lfd::controller {
 
-void serve_asset(wire::Socket& bulk, const wire::Message& message, const Assets& assets) {
-  if (!message.envelope.has_want()) return;
+Status serve_asset(wire::Socket& bulk, const wire::Message& message, const Assets& assets) {
+  if (!message.envelope.has_want()) return {};
   const proto::Want& want = message.envelope.want();
   proto::Envelope answer;
   wire::Payload piece;
@@ -25,9 +23,7 @@ void serve_asset(wire::Socket& bulk, const wire::Message& message, const Assets&
     chunk.set_total(asset->size());
     piece = wire::Payload(asset, std::as_bytes(std::span(*asset)).subspan(want.offset(), length));
   }
-  if (const Status sent = bulk.send_to(message.peer, answer, piece); !sent) {
-    log::warn("bulk: {}", sent.error().message());
-  }
+  return bulk.send_to(message.peer, answer, piece);
 }
 
 }  // namespace lfd::controller

@@ -15,6 +15,9 @@ namespace lfd::controller {
 namespace {
 
 constexpr int kHeartbeatsOfPatience = 6;
+// How long messages of one socket are taken in before the other one, heartbeats and frames have their turn: whoever
+// sends without end delays them by no more than this, and the longest answer.
+constexpr auto kIntake = std::chrono::milliseconds(10);
 constexpr auto kLastWords = std::chrono::seconds(1);
 
 Membership::Rules rules_of(const Deployment& deployment) {
@@ -33,6 +36,16 @@ Shares shares_of(const Deployment& deployment, const Assignment& assignment) {
     if (node.spare) spares.push_back(node.name);
   }
   return Shares(assignment, std::move(spares), deployment.message.give_back());
+}
+
+void take_in(wire::Socket& socket, const std::function<bool(const std::string&)>& is_known,
+             const std::function<void(const wire::Message&)>& take) {
+  const auto end = Clock::now() + kIntake;
+  while (Clock::now() < end) {
+    const auto message = socket.receive(is_known);
+    if (!message) return;
+    take(*message);
+  }
 }
 
 // Not zero, and hardly ever that of another life.
@@ -86,10 +99,8 @@ Status Daemon::run(StopSignals& signals) {
     wire::wait({&links_.control, &links_.bulk}, {signals.descriptor(), loader_.descriptor()}, wake_at() - Clock::now());
     const Clock::time_point now = Clock::now();
     const auto is_member = [&](const std::string& peer) { return members_.at(peer) != nullptr; };
-    while (const auto message = links_.control.receive(is_member)) take_control(*message, now);
-    while (const auto message = links_.bulk.receive()) {
-      if (stage_.has_scene()) serve_asset(links_.bulk, *message, *assets_for(message->envelope.want().hash()));
-    }
+    take_in(links_.control, is_member, [&](const wire::Message& message) { take_control(message, now); });
+    take_in(links_.bulk, {}, [&](const wire::Message& message) { take_want(message, now); });
     if (auto arrival = loader_.take()) first_scene = take_scene(*std::move(arrival), now);
     settle_scene(now);
     if (!first_scene) end_ = "there is no scene to show";
@@ -122,7 +133,7 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
     case proto::Envelope::kHeartbeat:
       return take_heartbeat(message);
     case proto::Envelope::kSnapshotRequest:
-      if (peer != nullptr && stage_.has_scene()) send_snapshot(message.peer);
+      if (peer != nullptr && stage_.has_scene() && limiter_.admits(message.peer, now)) send_snapshot(message.peer);
       return;
     case proto::Envelope::kDrawn:
       if (peer != nullptr) barrier_.drawn(peer->name, envelope.drawn().frame());
@@ -146,6 +157,12 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
       log::debug("control: a message that nobody sends to a controller");
       return;
   }
+}
+
+void Daemon::take_want(const wire::Message& message, Clock::time_point now) {
+  if (!stage_.has_scene()) return;
+  const Status served = serve_asset(links_.bulk, message, *assets_for(message.envelope.want().hash()));
+  if (!served && unread_pieces_.due(now)) log::warn("bulk: {}", served.error().message());
 }
 
 void Daemon::tick(Clock::time_point now) {
@@ -182,11 +199,11 @@ void Daemon::publish(const proto::Update& update) {
   publish(std::move(envelope));
 }
 
-void Daemon::send(const std::string& address, proto::Envelope envelope) {
+void Daemon::send(const std::string& address, proto::Envelope envelope, const wire::Payload& payload) {
   envelope.set_session(session_);
-  if (const Status sent = links_.control.send_to(address, envelope); !sent) {
-    if (members_.at(address) == nullptr) return log::debug("control: {}", sent.error().message());  // it may not care
-    log::warn("control: {}", sent.error().message());
+  if (const Status sent = links_.control.send_to(address, envelope, payload); !sent) {
+    if (members_.at(address) != nullptr) return log::warn("control: {}", sent.error().message());
+    if (unread_answers_.due(Clock::now())) log::debug("control: {}", sent.error().message());  // it may not care
   }
 }
 

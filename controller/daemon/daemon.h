@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,9 @@
 #include "controller/daemon/scene_loader.h"
 #include "controller/frame_barrier.h"
 #include "controller/frame_log.h"
+#include "controller/handouts.h"
 #include "controller/join_limiter.h"
+#include "controller/late_nodes.h"
 #include "controller/membership.h"
 #include "controller/pacing.h"
 #include "controller/replay/replay.h"
@@ -51,6 +52,8 @@ class Daemon {
   bool loading() const { return loader_.busy(); }
 
  private:
+  static constexpr int kRefusedJoins = 8;  // that the log tells of in a row
+
   // A client's wish for a number of frames, and how far it is.
   struct FramesAsked {
     std::string client;
@@ -66,11 +69,12 @@ class Daemon {
   // daemon.cc: the loop
   Status start_show();
   void take_control(const wire::Message& message, Clock::time_point now);
+  void take_want(const wire::Message& message, Clock::time_point now);
   void tick(Clock::time_point now);
   Clock::time_point wake_at() const;
   void publish(proto::Envelope envelope);
   void publish(const proto::Update& update);
-  void send(const std::string& address, proto::Envelope envelope);
+  void send(const std::string& address, proto::Envelope envelope, const wire::Payload& payload = {});
 
   // daemon_peers.cc: who takes part
   void take_join(const wire::Message& message, Clock::time_point now);
@@ -100,6 +104,7 @@ class Daemon {
   const Assets* assets_for(const std::string& hash) const;
   // daemon_strangers.cc: who may
   bool lets_join(const wire::Message& message, Clock::time_point now);  // else it is refused, or passed over
+  void refuse_join(const wire::Message& message, const Error& why, Clock::time_point now);
   bool seems_repeated(const wire::Message& message, Clock::time_point now);
   Status may_ask_for(const wire::Message& message, Clock::time_point now);
 
@@ -128,7 +133,7 @@ class Daemon {
   void take_request(const wire::Message& message, Clock::time_point now);
   Result<bool> start_frames(const wire::Message& message);
   Result<bool> start_scene(const wire::Message& message);
-  proto::Follow follow() const;
+  void answer_follow(const std::string& client, std::uint64_t id);
   void reply(const std::string& client, std::uint64_t id, const Status& done);
   // An error in place of what no message can hold.
   void reply(const std::string& client, proto::Reply answer);
@@ -151,7 +156,9 @@ class Daemon {
   std::optional<Clock::time_point> first_shown_;  // when the first scene was there
   Membership members_;
   JoinLimiter limiter_;
-  NowAndThen refusals_;  // of requests, in the log
+  Handouts handouts_;
+  // In the log: refusals of requests and of joins; pieces of assets and answers to strangers that nobody reads.
+  NowAndThen refusals_, refused_joins_{kRefusedJoins}, unread_pieces_, unread_answers_;
   FrameBarrier barrier_;
   controller::Pacing pacing_;
   FrameLog log_;
@@ -159,7 +166,7 @@ class Daemon {
   Service service_;
   Clock::time_point next_look_{};  // when others are told again
   std::optional<FramesAsked> asked_;
-  std::set<std::string> late_;                      // nodes that were missing in the last frame swapped
+  LateNodes late_;
   std::map<std::string, std::string> said_errors_;  // of nodes: that of the last frame, so that each is logged once
   std::optional<Clock::time_point> last_swap_;
   Clock::time_point next_pulse_;

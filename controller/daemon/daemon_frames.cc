@@ -88,7 +88,13 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
     stats_.shown({}, swap.frame, now);
   }
   last_swap_ = now;
-  late_ = {swap.missing.begin(), swap.missing.end()};
+  for (const LateNodes::News& news : late_.swapped(swap.late ? swap.missing : std::vector<std::string>(), now)) {
+    if (news.is_late) {
+      log::warn("\"{}\" is late: frame {} is shown with its modules as they were", news.node, swap.frame);
+    } else {
+      log::info("\"{}\" is in time again", news.node);
+    }
+  }
   log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun),
              stale.size());
 }

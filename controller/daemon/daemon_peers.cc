@@ -12,11 +12,7 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   const bool asks_again = known != nullptr && known->name == join.name() && !known->last_heard;
   const std::string images_before = images_endpoint();
   const Result<std::optional<std::string>> joined = members_.join(join, message.peer, now);
-  if (!joined) {
-    log::warn("\"{}\" (process {}) is refused: {}", join.name(), join.process(), joined.error().message());
-    stats_.join_refused(join.name(), joined.error().message());
-    return refuse(message.peer, joined.error().message());
-  }
+  if (!joined) return refuse_join(message, joined.error(), now);
   if (!*joined) return log::debug("\"{}\" (process {}) comes under a name that may live", join.name(), join.process());
   const std::string& name = **joined;
   stats_.joined(name);
@@ -67,7 +63,7 @@ void Daemon::peer_is_gone(const std::string& name, const char* why) {
   change_.gone(name);
   stats_.fault(name, fmt::format("out: {}", why));
   barrier_.gone(name);
-  late_.erase(name);
+  late_.gone(name);
   if (members_.find(name)->role == proto::DISPLAY) publish_images_endpoint();
 }
 

@@ -8,6 +8,13 @@ namespace {
 
 constexpr std::uint32_t kMostFrames = FrameLog::kRemembered;  // of one request: their reports have to be remembered
 
+Status check_length(std::size_t bytes) {
+  constexpr std::size_t kMost_bytes = wire::kSmallMessages.max_part_bytes - 1024;  // the envelope has its share
+  if (bytes <= kMost_bytes) return {};
+  return Error(fmt::format("the reply of {} MiB does not fit into a message of {} MiB", bytes >> 20,
+                           wire::kSmallMessages.max_part_bytes >> 20));
+}
+
 }  // namespace
 
 void Daemon::reply(const std::string& client, std::uint64_t id, const Status& done) {
@@ -18,18 +25,26 @@ void Daemon::reply(const std::string& client, std::uint64_t id, const Status& do
 }
 
 void Daemon::reply(const std::string& client, proto::Reply answer) {
-  constexpr std::int64_t kMost_bytes = wire::kSmallMessages.max_part_bytes - 1024;  // the envelope has its share
-  const auto bytes = static_cast<std::int64_t>(answer.ByteSizeLong());
+  if (const Status fits = check_length(answer.ByteSizeLong()); !fits)
+    return reply(client, answer.id(), Error(fits.error().message() + "; ask for fewer frames at a time"));
   proto::Envelope envelope;
-  if (bytes > kMost_bytes) {
-    envelope.mutable_reply()->set_id(answer.id());
-    envelope.mutable_reply()->set_error(
-        fmt::format("the reply of {} MiB does not fit into a message of {} MiB; ask for fewer frames at a time",
-                    bytes >> 20, wire::kSmallMessages.max_part_bytes >> 20));
-  } else {
-    *envelope.mutable_reply() = std::move(answer);
-  }
-  send(client, envelope);
+  *envelope.mutable_reply() = std::move(answer);
+  send(client, std::move(envelope));
+}
+
+void Daemon::answer_follow(const std::string& client, std::uint64_t id) {
+  if (!stage_.has_scene()) return reply(client, id, Error("no scene is there yet"));
+  if (!handouts_.has_room())
+    return reply(client, id, Error("too many who asked for the scene do not read it; ask again later"));
+  std::string state = snapshot().SerializeAsString();
+  if (const Status fits = check_length(state.size()); !fits) return reply(client, id, fits);
+  proto::Envelope envelope;
+  envelope.mutable_reply()->set_id(id);
+  proto::Follow& follow = *envelope.mutable_reply()->mutable_follow();
+  follow.set_state_endpoint(links_.state.endpoint());
+  follow.set_bulk_endpoint(links_.bulk.endpoint());
+  *follow.mutable_display() = write_calibration(options_.deployment.display);
+  send(client, std::move(envelope), handouts_.give(std::move(state)));
 }
 
 void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
@@ -51,13 +66,8 @@ void Daemon::take_request(const wire::Message& message, Clock::time_point now) {
       *answer.mutable_status() = status(now);
       return reply(message.peer, std::move(answer));
     }
-    case proto::Request::kFollow: {
-      if (!stage_.has_scene()) return reply(message.peer, request.id(), Error("no scene is there yet"));
-      proto::Reply answer;
-      answer.set_id(request.id());
-      *answer.mutable_follow() = follow();
-      return reply(message.peer, std::move(answer));
-    }
+    case proto::Request::kFollow:
+      return answer_follow(message.peer, request.id());
     case proto::Request::kRoi:
       return change(stage_.set_roi(request.roi()));
     case proto::Request::kRender:
@@ -102,15 +112,6 @@ Result<bool> Daemon::start_frames(const wire::Message& message) {
   log_.remember(frames.count());
   if (const auto update = stage_.set_buffers(frames.buffers())) publish(*update);
   return true;
-}
-
-proto::Follow Daemon::follow() const {
-  proto::Follow follow;
-  follow.set_state_endpoint(links_.state.endpoint());
-  follow.set_bulk_endpoint(links_.bulk.endpoint());
-  *follow.mutable_display() = write_calibration(options_.deployment.display);
-  *follow.mutable_snapshot() = snapshot();
-  return follow;
 }
 
 }  // namespace lfd::controller

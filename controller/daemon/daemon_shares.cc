@@ -22,6 +22,10 @@ std::map<std::string, Presence> Daemon::presence(Clock::time_point now) const {
 
 void Daemon::settle_shares(Clock::time_point now) {
   if (!stage_.has_scene()) return;
+  std::map<std::string, std::string> stood_in;  // spares, for whom
+  for (const auto& [name, modules] : assignment_) {
+    if (shares_.is_spare(name)) stood_in[name] = shares_.stands_in_for(name);
+  }
   for (const std::string& spare : shares_.settle(presence(now))) {
     const std::vector<std::uint32_t>& modules = shares_.of(spare);
     log::warn("\"{}\" takes over modules {} of \"{}\"", spare,
@@ -36,6 +40,10 @@ void Daemon::settle_shares(Clock::time_point now) {
     envelope.mutable_assign()->set_share(shares_.number(spare));
     for (const std::uint32_t module : modules) envelope.mutable_assign()->add_modules(module);
     send(peer.address, envelope);
+  }
+  for (const auto& [spare, owner] : stood_in) {
+    if (!owner.empty() && shares_.stands_in_for(spare) != owner)
+      log::info("\"{}\" draws modules of \"{}\" no longer", spare, owner);
   }
 }
 

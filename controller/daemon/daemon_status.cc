@@ -31,7 +31,7 @@ proto::Status Daemon::status(Clock::time_point now) const {
     proto::PeerStatus& entry = *status.add_peer();
     entry.set_role(peer->role);
     entry.set_name(peer->name);
-    entry.set_state(peer->phase == Phase::kReady && late_.contains(peer->name) ? "late" : name_of(peer->phase));
+    entry.set_state(peer->phase == Phase::kReady && late_.is_late(peer->name) ? "late" : name_of(peer->phase));
     entry.set_state_hash(peer->state_hash);
     entry.set_process(peer->process);
     if (peer->role != proto::NODE) continue;

@@ -11,13 +11,17 @@
 namespace lfd::controller {
 namespace {
 
-constexpr std::size_t kMostLetters = 64;  // of a peer's name
+constexpr std::size_t kMostLetters = 64;  // of a peer's name, version and calibration hash
 
-// Names stand in logs and statuses, addresses are passed on to nodes: both must be what they seem.
+bool is_plain(const std::string& word) {
+  return word.size() <= kMostLetters &&
+         std::ranges::all_of(word, [](unsigned char c) { return c < 128 && std::isprint(c) != 0; });
+}
+
+// Words stand in logs and statuses, addresses are passed on to nodes: all must be what they seem.
 Status check_words(const proto::Join& join, const Deployment& deployment) {
-  const bool plain = std::ranges::all_of(join.name(), [](unsigned char c) { return c < 128 && std::isprint(c) != 0; });
-  if (!plain || join.name().size() > kMostLetters)
-    return Error(fmt::format("its name has other signs than letters, or more than {}", kMostLetters));
+  if (!is_plain(join.name()) || !is_plain(join.version()) || !is_plain(join.calibration_hash()))
+    return Error(fmt::format("its name, version or hash has other signs than letters, or more than {}", kMostLetters));
   if (join.role() != proto::DISPLAY || join.images_endpoint().empty()) return {};
   if (const Status endpoint = validate_endpoint(join.images_endpoint()); !endpoint)
     return endpoint.error().within("images");
@@ -35,16 +39,34 @@ const AllowList* allow_list(const wire::Context& context) {
 bool Daemon::lets_join(const wire::Message& message, Clock::time_point now) {
   const proto::Join& join = message.envelope.join();
   if (!limiter_.admits(message.user.empty() ? message.peer : message.user, now)) {
-    if (limiter_.warns(now)) log::warn("too many joins; {} so far are passed over", limiter_.passed_over());
+    if (limiter_.warns(now))
+      log::warn("too many joins and requests for the state; {} so far are passed over", limiter_.passed_over());
     return false;
   }
   Status may = check_words(join, options_.deployment);
   if (may) may = may_join(allow_list(*context_), message.user, join);
   if (may) return !seems_repeated(message, now);
-  log::warn("a join{} is refused: {}", message.user.empty() ? "" : fmt::format(" of \"{}\"", message.user),
-            may.error().message());
-  refuse(message.peer, may.error().message());
+  refuse_join(message, may.error(), now);
   return false;
+}
+
+// The log tells of some of them only, and the status of none under the name of a peer that lives: neither is a place
+// for strangers to write in.
+void Daemon::refuse_join(const wire::Message& message, const Error& why, Clock::time_point now) {
+  const proto::Join& join = message.envelope.join();
+  const std::string& name = join.name();
+  if (refused_joins_.due(now)) {
+    const std::string of =
+        message.user.empty() || message.user == name ? "" : fmt::format(" with the key of \"{}\"", message.user);
+    log::warn("\"{}\" (process {}){} is refused: {}", name.substr(0, kMostLetters), join.process(), of, why.message());
+  }
+  const Peer* known = members_.find(name);
+  if (known != nullptr && !known->lives()) {
+    stats_.join_refused(name, why.message());
+  } else {
+    stats_.refused();
+  }
+  refuse(message.peer, why.message());
 }
 
 // A process that joins anew has lost its connection, and is silent there. Where it is not, somebody says again what it

@@ -15,6 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kWarningPause = 5s;
+// Messages that one call looks at and leaves out: its caller has other things to do.
+constexpr int kRefusedAtOnce = 64, kSubscriptionsAtOnce = 4096;
 
 // A message that ends the life of its owner when the transport has done with it.
 zmq::message_t without_copy(const Payload& payload) {
@@ -102,6 +104,18 @@ std::optional<Parts> receive_parts(zmq::socket_t& socket) {
   }
 }
 
+// Subscriptions as they come in; nothing is decided by them. Everybody here subscribes to everything, a word of one
+// byte: the library keeps whatever else is asked for until the connection ends, and lets nobody forbid it.
+void hear_subscriptions(Socket::Transport& socket) {
+  for (int i = 0; i < kSubscriptionsAtOnce; ++i) {
+    const auto parts = receive_parts(socket.zmq);
+    if (!parts) return;
+    if (parts->part[0].size() <= 1) continue;
+    ++socket.refused;
+    warn_now_and_then(socket, "somebody subscribes to what is not published");
+  }
+}
+
 // Who sent it, as the allow-list calls it. The library lets what the list says stand before what a peer says of itself;
 // without keys, anybody could say anything.
 std::string user_of(zmq::message_t& part) {
@@ -169,8 +183,7 @@ Status Socket::send(const proto::Envelope& envelope, const Payload& payload) {
   LFD_TRY_STATUS(check_size(*transport_, bytes.size(), payload.size()));
   const bool publishes = transport_->type == zmq::socket_type::xpub;
   hear_of_handshakes(*transport_);
-  while (publishes && receive_parts(transport_->zmq)) {
-  }  // subscriptions as they come in; nothing is decided by them
+  if (publishes) hear_subscriptions(*transport_);
   if (send_parts(transport_->zmq, {}, bytes, payload) == Sent::kYes) return {};
   if (!publishes) {
     const std::string why = trouble();
@@ -210,7 +223,9 @@ std::string Socket::trouble() {
 std::optional<Message> Socket::receive(const std::function<bool(const std::string& peer)>& is_known) {
   const bool is_router = transport_->type == zmq::socket_type::router;
   hear_of_handshakes(*transport_);
-  while (auto parts = receive_parts(transport_->zmq)) {
+  for (int refused = 0; refused < kRefusedAtOnce; ++refused) {
+    auto parts = receive_parts(transport_->zmq);
+    if (!parts) return std::nullopt;
     auto message = read(*parts, *transport_, is_known);
     if (!message) {
       ++transport_->refused;

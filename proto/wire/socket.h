@@ -40,9 +40,9 @@ inline constexpr Limits kReports{.max_part_bytes = std::int64_t{4} << 20,
                                  .max_sent_part_bytes = kSmallMessages.max_part_bytes,
                                  .queued_to_send = 100};
 // State as the controller sends it; what it takes are subscriptions to everything, and the words of a handshake.
-inline constexpr Limits kUpdates{.max_part_bytes = 4096,
-                                 .queued_messages = kSmallMessages.queued_messages,
-                                 .max_sent_part_bytes = kSmallMessages.max_part_bytes};
+// A peer that has stopped with its connection open keeps what waits for it in memory: few seconds' worth.
+inline constexpr Limits kUpdates{
+    .max_part_bytes = 4096, .queued_messages = 256, .max_sent_part_bytes = kSmallMessages.max_part_bytes};
 // Bulk: chunks of assets; at most 64 MiB wait per peer.
 inline constexpr std::uint32_t kChunk_bytes = 1u << 20;
 inline constexpr Limits kChunks{kChunk_bytes, 64};
@@ -105,10 +105,11 @@ class Socket {
   // limits.
   Status send_to(const std::string& peer, const proto::Envelope& envelope, const Payload& payload = {});
 
-  // The next message, if one is there. Messages that cannot be parsed, are of another protocol version or have too many
-  // parts are left out, counted in refused() and warned of (at most once in 5 s). A router answers those of another
-  // version with Refused, and a Refused is received whatever its version, so that both sides know. `is_known`: whether
-  // a peer may send envelopes of more than kShort_bytes; without it everybody may.
+  // The next message, if one is there. False alarms are possible: nothing comes of a call that has left out many
+  // messages in a row, and the next one goes on. Messages that cannot be parsed, are of another protocol version or
+  // have too many parts are left out, counted in refused() and warned of (at most once in 5 s). A router answers those
+  // of another version with Refused, and a Refused is received whatever its version, so that both sides know.
+  // `is_known`: whether a peer may send envelopes of more than kShort_bytes; without it everybody may.
   std::optional<Message> receive(const std::function<bool(const std::string& peer)>& is_known = {});
 
   // Of a dealer that is not connected, why it is not, as far as the other side lets it know; else empty.

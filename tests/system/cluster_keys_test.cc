@@ -96,7 +96,7 @@ TEST(ClusterKeys, JoinsNeedTheKeyOfWhoJoins) {
   EXPECT_EQ(refusal("left", "right", proto::NODE), "the key of \"right\" is not that of node \"left\"");
   EXPECT_EQ(refusal("left", "display", proto::NODE), "the key of \"display\" has no right NODE");
   EXPECT_EQ(refusal("display", "left", proto::DISPLAY), "the key of \"left\" has no right DISPLAY");
-  EXPECT_TRUE(says(*controller.process, "a join of \"guest\" is refused: the key of \"guest\" has no right NODE"));
+  EXPECT_TRUE(says(*controller.process, " with the key of \"guest\" is refused: the key of \"guest\" has no right NODE"));
   EXPECT_EQ(refusal("any name", "display", proto::DISPLAY), "");
   EXPECT_EQ(refusal("left", "left", proto::NODE), "");
   // Who is not listed is not heard at all, and the others go on.

@@ -147,6 +147,11 @@ TEST_F(ClusterStatsTest, StrangersAreCountedAndTakeNoMemory) {
   EXPECT_EQ(stats.faults("stranger 7"), 0u);
 }
 
+TEST_F(ClusterStatsTest, AFaultIsCutWhereItIsTooLong) {
+  stats.fault("", std::string(100'000, 'x'));
+  EXPECT_LT(status_at(kStart).last_fault().size(), 600u);
+}
+
 TEST_F(ClusterStatsTest, AFrameLongForgottenHasNoTime) {
   for (std::uint64_t frame = 0; frame < 5000; ++frame) stats.begun(frame, kStart + frame * 1ms);
   stats.ready("left", ready(3), kStart + 5s);

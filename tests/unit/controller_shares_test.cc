@@ -80,6 +80,16 @@ TEST(Shares, ItKeepsThemByPolicyUntilItGoes) {
   EXPECT_THAT(shares.drawing(now), ElementsAre(Pair("a", Modules{0, 1}), Pair("b", Modules{2, 3})));
 }
 
+TEST(Shares, ASpareThatCannotDrawYetIsNotWaitedForByWhoCan) {
+  Shares shares = shares_with(proto::Deployment::NEVER);
+  std::map<std::string, Presence> now{{"a", kAway}, {"b", kReady}, {"s", kReady}, {"t", kAway}};
+  ASSERT_THAT(shares.settle(now), ElementsAre("s"));
+  now["s"] = kLoading;
+  now["a"] = kReady;
+  shares.settle(now);
+  EXPECT_THAT(shares.drawing(now), ElementsAre(Pair("a", Modules{0, 1}), Pair("b", Modules{2, 3})));
+}
+
 TEST(Shares, AnotherSpareStandsInForOneThatGoes) {
   Shares shares = shares_with(proto::Deployment::WHEN_READY);
   std::map<std::string, Presence> now{{"a", kAway}, {"b", kReady}, {"s", kReady}, {"t", kReady}};

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "base/log.h"
@@ -132,6 +133,30 @@ TEST_F(KeyFiles, AnAllowListThatCannotBeIsRefusedByItsLine) {
   EXPECT_THAT(allow_error(with("../b", 'b', "right: NODE")), HasSubstr("name: 1 to 64 letters"));
 }
 
+TEST_F(KeyFiles, AnAllowListThatOthersMayWriteToIsRefused) {
+  const mode_t before = ::umask(0);
+  const Status written =
+      write_allow_list(path("allow.textproto"), {{{"left", key_letters('a'), {proto::Allowed::NODE}}}});
+  ::umask(before);
+  ASSERT_TRUE(written);
+  EXPECT_TRUE(read_allow_list(path("allow.textproto"))) << "whatever the umask is";
+  for (const mode_t mode : {0664U, 0646U}) {
+    ASSERT_EQ(::chmod(path("allow.textproto").c_str(), mode), 0);
+    const auto list = read_allow_list(path("allow.textproto"));
+    ASSERT_FALSE(list) << mode;
+    EXPECT_THAT(list.error().message(), HasSubstr("allow.textproto: others may write to it")) << mode;
+  }
+}
+
+TEST_F(KeyFiles, FilesOfOtherUsersAreRefused) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can make files of other users";
+  ASSERT_TRUE(create_key_file(path("left.key"), unwrapped(wire::make_key("left"))));
+  ASSERT_TRUE(write_allow_list(path("allow.textproto"), {{{"left", key_letters('a'), {proto::Allowed::NODE}}}}));
+  for (const char* const name : {"left.key", "allow.textproto"}) ASSERT_EQ(::chown(path(name).c_str(), 12345, 0), 0);
+  EXPECT_THAT(read_key_file(path("left.key")).error().message(), HasSubstr("left.key: belongs to user 12345"));
+  EXPECT_THAT(read_allow_list(path("allow.textproto")).error().message(), HasSubstr("belongs to user 12345"));
+}
+
 TEST_F(KeyFiles, EveryMemberGetsAKeyAndLaterTheMissingOnesAlone) {
   const auto made = unwrapped(make_keys(deployment("node { name: \"left\" }"), {}));
   EXPECT_THAT(made, ElementsAre("controller", "display", "left", "operator"));
@@ -164,7 +189,7 @@ TEST_F(KeyFiles, NoNameIsThatOfTwoMembersAndNoKeyOfNobodyIsTaken) {
               HasSubstr("\"left\" is the name of two members"));
   std::filesystem::create_directories(path("keys"));
   ASSERT_TRUE(create_key_file(path("keys/left.key"), unwrapped(wire::make_key("left"))));
-  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {})), HasSubstr("left.key: cannot be made"));
+  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {})), HasSubstr("left.key: is there, and"));
 }
 
 TEST_F(KeyFiles, AProgramTakesTheKeyOfItsNameUnlessAnotherIsGiven) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/printable.h"
 #include "cli/status_table.h"
 #include "cli/terminal.h"
 
@@ -137,6 +138,7 @@ TEST(AoText, SaysUnderABudgetOnlyWhatIsNotTheNodesChoice) {
 }
 
 TEST(Terminal, ForeignTextCannotControlIt) {
+  EXPECT_EQ(printable_lines("one\x1b\n12:00:00 W [left] two\n"), "one?\n  | 12:00:00 W [left] two\n  | ");
   EXPECT_EQ(printable("caf\xc3\xa9 \x1b[2J\n\x7f"), "caf\xc3\xa9 ?[2J??");
   EXPECT_EQ(printable("\xc2\x9b"
                       "2J \xc2\xa0"),
