@@ -55,10 +55,10 @@ bool Context::is_software() const {
                              [&](std::string_view name) { return description_.find(name) != std::string::npos; });
 }
 
-bool Context::is_lost() const {
+bool Context::is_lost() {
   if (!lost_ && tells_resets_ && glGetGraphicsResetStatus() != GL_NO_ERROR) {
     log::warn("the GPU was reset: the GL context is lost");
-    return true;
+    lost_ = true;
   }
   return lost_;
 }

@@ -40,8 +40,8 @@ class Context {
   bool is_software() const;
 
   // Whether the driver has given the context up (a reset of the GPU): nothing it made can be used any more. Asks the
-  // driver's robustness query, where it has one.
-  bool is_lost() const;
+  // driver's robustness query, where it has one; that tells of a reset once, and a context that is lost stays lost.
+  bool is_lost();
   // From now on it counts as lost (for tests).
   void lose() { lost_ = true; }
 
