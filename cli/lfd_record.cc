@@ -151,7 +151,7 @@ void Session::hear_bulk(Clock::time_point now) {
       log::warn("{}", came.error().message());
   }
   if (now < want_again_) return;
-  for (const proto::Want& want : gatherer.next_requests()) {
+  for (const proto::Want& want : gatherer.next_requests(now)) {
     proto::Envelope request;
     *request.mutable_want() = want;
     if (bulk_.send(request)) continue;

@@ -2,6 +2,7 @@
 #include "proto/asset_gatherer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/hash.h"
 #include "base/log.h"
@@ -42,25 +43,35 @@ bool AssetGatherer::has_all_of(const proto::Scene& scene) const {
   return std::ranges::all_of(asset_hashes(scene), [&](const std::string& hash) { return assets_.contains(hash); });
 }
 
-std::vector<proto::Want> AssetGatherer::next_requests() {
+std::vector<proto::Want> AssetGatherer::next_requests(Clock::time_point now) {
+  if (std::exchange(answered_, false)) last_news_ = now;
+  if (missing_.empty()) patience_ = kPatience;
+  if (!missing_.empty() && under_way_ > 0 && now - last_news_ > patience_) {
+    log::info("no asset has come for {:.0f} ms; what is missing is asked for again", milliseconds(now - last_news_));
+    ask_again();
+    patience_ = std::min(2 * patience_, kMostPatience);
+  }
   std::vector<proto::Want> requests;
   for (auto& [hash, partial] : missing_) {
     // The first piece tells how long the asset is; until then nothing more of it is asked for.
-    while (under_way_ < kPiecesUnderWay && (partial.asked == 0 || partial.asked < partial.total)) {
+    while (under_way_ < kPiecesUnderWay && (partial.next == 0 || partial.next < partial.total)) {
+      const std::uint64_t offset = std::exchange(partial.next, partial.next + piece_bytes_);
+      if (partial.has(offset / piece_bytes_)) continue;
+      partial.asked = std::max(partial.asked, partial.next);
       proto::Want want;
       want.set_hash(hash);
-      want.set_offset(partial.asked);
+      want.set_offset(offset);
       want.set_length(piece_bytes_);
-      partial.asked += piece_bytes_;
       ++under_way_;
       requests.push_back(std::move(want));
     }
   }
+  if (!requests.empty()) last_news_ = now;
   return requests;
 }
 
 Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view bytes) {
-  under_way_ = std::max(0, under_way_ - 1);
+  answer_came();
   const auto found = missing_.find(chunk.hash());
   if (found == missing_.end()) return {};  // no longer wanted
   Partial& partial = found->second;
@@ -75,8 +86,8 @@ Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view byt
   }
   partial.total = chunk.total();
   const std::uint64_t piece = chunk.offset() / piece_bytes_;
+  if (partial.has(piece)) return {};  // asked for twice, since the link was lost in between
   if (partial.pieces.size() <= piece) partial.pieces.resize(piece + 1);
-  if (partial.pieces[piece]) return {};  // asked for twice, since the link was lost in between
   partial.pieces[piece] = true;
   grow(partial.bytes, chunk.offset() + bytes.size(), partial.total);
   std::ranges::copy(bytes, partial.bytes.begin() + static_cast<std::ptrdiff_t>(chunk.offset()));
@@ -92,13 +103,19 @@ Status AssetGatherer::piece_came(const proto::Chunk& chunk, std::string_view byt
 }
 
 void AssetGatherer::not_found(const std::string& hash) {
-  under_way_ = std::max(0, under_way_ - 1);
+  answer_came();
   if (const auto found = missing_.find(hash); found != missing_.end()) found->second = {};
 }
 
 void AssetGatherer::ask_again() {
   under_way_ = 0;
-  for (auto& [hash, partial] : missing_) partial = {};
+  for (auto& [hash, partial] : missing_) partial.next = 0;
+}
+
+// Of what was asked for twice both answers may come: what is under way is never counted below nothing.
+void AssetGatherer::answer_came() {
+  under_way_ = std::max(0, under_way_ - 1);
+  answered_ = true;
 }
 
 }  // namespace lfd

@@ -260,7 +260,7 @@ void Daemon::follow_assets() {
   const auto& state = follower_.state();
   if (!state || !state->has_scene() || (state == ready_state_ && gatherer_.complete())) return;
   gatherer_.want(state->scene(), preparation_ ? &preparation_->state->scene() : nullptr);
-  for (const auto& want : gatherer_.next_requests()) {
+  for (const auto& want : gatherer_.next_requests(Clock::now())) {
     proto::Envelope request;
     *request.mutable_want() = want;
     if (!bulk_ || !bulk_->send(request)) {

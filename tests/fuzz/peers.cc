@@ -181,7 +181,7 @@ void Peers::to_node(const proto::Envelope& envelope, std::string_view payload) {
   }
   (void)read_settings(follower_.state()->render());
   (void)read_roi(follower_.state()->roi());
-  for (const proto::Want& want : gatherer_.next_requests())
+  for (const proto::Want& want : gatherer_.next_requests(now_))
     LFD_CHECK(want.length() == kPiece_bytes && want.offset() < AssetGatherer::kMaxAsset_bytes, "pieces are asked for");
 }
 

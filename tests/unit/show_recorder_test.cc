@@ -90,7 +90,6 @@ struct ShowRecorderTest : testing::Test {
   ShowRecorder recorder{kPiece};
 };
 
-
 TEST_F(ShowRecorderTest, AsksForASnapshotOnceItsSubscriptionHasArrived) {
   EXPECT_FALSE(recorder.wants_snapshot());
   hear(show.pulse());
@@ -182,7 +181,7 @@ TEST_F(ShowRecorderTest, EachAssetIsGivenOutOnceAlsoOfLaterScenes) {
   snapshot();
   const auto gather = [&] {
     while (!recorder.gatherer().complete()) {
-      for (const proto::Want& want : recorder.gatherer().next_requests()) {
+      for (const proto::Want& want : recorder.gatherer().next_requests(Clock::time_point())) {
         const std::string& content = want.hash() == content_hash(first) ? first : second;
         proto::Chunk chunk;
         chunk.set_hash(want.hash());
