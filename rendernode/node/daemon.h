@@ -96,7 +96,9 @@ class Daemon {
   void take_prepare(const proto::Prepare& message);
   void build_prepared();
   void take_prepared_events();
+  void say_prepared(const std::string& error);
   void forget_prepared();
+  void drop_prepared();
   bool shows_prepared(const Begun& begun) const;
   void switch_to_prepared();
 

@@ -1,4 +1,5 @@
 // A scene that is to come: its assets are gathered and a second thread builds it while the first goes on drawing.
+#include "base/large_blocks.h"
 #include "base/log.h"
 #include "proto/state.h"
 #include "rendernode/node/daemon.h"
@@ -6,8 +7,8 @@
 namespace lfd::node {
 
 void Daemon::take_prepare(const proto::Prepare& message) {
+  if (!message.has_update() || !follower_.state()) return drop_prepared();
   forget_prepared();
-  if (!message.has_update() || !follower_.state()) return follow_assets();
   auto state = std::make_shared<proto::State>(*follower_.state());
   *state->mutable_scene() = message.update().scene();
   *state->mutable_roi() = message.update().roi();
@@ -26,9 +27,7 @@ void Daemon::build_prepared() {
   if (!gatherer_.has_all_of(preparation_->state->scene())) return;
   if (modules_.empty()) {
     preparation_->is_built = true;
-    proto::Envelope nothing_to_build;
-    nothing_to_build.mutable_prepared()->set_number(preparation_->number);
-    return say(nothing_to_build);
+    return say_prepared("");
   }
   preparation_->drawing = std::make_unique<RenderThread>(options_.gpu, *display_, modules_);
   DrawJob job;
@@ -43,14 +42,29 @@ void Daemon::take_prepared_events() {
     if (!event) return;
     const bool failed = event->kind == FrameEvent::Kind::kFailed;
     if (!failed && event->kind != FrameEvent::Kind::kReady) continue;
-    proto::Envelope prepared;
-    prepared.mutable_prepared()->set_number(preparation_->number);
-    prepared.mutable_prepared()->set_error(failed ? event->error : event->result->report.error());
-    preparation_->is_built = prepared.prepared().error().empty();
-    if (!preparation_->is_built) log::warn("the scene cannot be drawn here: {}", prepared.prepared().error());
-    say(prepared);
+    const std::string error = failed ? event->error : event->result->report.error();
+    preparation_->is_built = error.empty();
+    if (!preparation_->is_built) log::warn("the scene cannot be drawn here: {}", error);
+    say_prepared(error);
     if (!preparation_->is_built) return forget_prepared();
   }
+}
+
+void Daemon::say_prepared(const std::string& error) {
+  proto::Envelope prepared;
+  prepared.mutable_prepared()->set_number(preparation_->number);
+  prepared.mutable_prepared()->set_error(error);
+  say(prepared);
+}
+
+// It is refused: what it alone needed goes at once.
+void Daemon::drop_prepared() {
+  forget_prepared();
+  const auto& state = follower_.state();
+  if (!state) return;
+  gatherer_.want(state->scene());
+  if (state == ready_state_) ready_assets_ = std::make_shared<const Assets>(gatherer_.assets());
+  give_memory_back();
 }
 
 void Daemon::forget_prepared() {

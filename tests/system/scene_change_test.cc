@@ -16,6 +16,7 @@
 #include "proto/pictures/png.h"
 #include "tests/harness/played_node.h"
 #include "tests/system/fault_stage.h"
+#include "tests/system/tcp_relay.h"
 
 namespace lfd::harness {
 namespace {
@@ -121,6 +122,31 @@ TEST(SceneChange, IsRefusedWhereANodeCannotDrawIt) {
   ASSERT_TRUE(answer && !*answer);
   EXPECT_THAT(answer->error().message(), testing::HasSubstr("node \"right\": no memory for it"));
   EXPECT_EQ(left.state_hash(), old_hash);
+}
+
+TEST(SceneChange, ThatIsRefusedLeavesNothingInMemory) {
+  const Workbench bench;
+  const auto deployment = bench.deployment("sink: NONE pacing { heartbeat_ms: 100 }");
+  const auto controller = start_controller(deployment);
+  const auto left =
+      start_program("lfd-rendernode", {deployment, "--name", "left", "--controller", controller.endpoint});
+  PlayedNode right("right", controller.endpoint);
+  right.habits.prepares = false;
+  ASSERT_TRUE(play_until(
+      {&right}, [&] { return !right.swaps.empty() && right.swaps.back().stale_modules_size() == 0; },
+      kClusterPatience));
+  const fs::path scene = write_scene(bench.folder() / "noise.glb", 2, 4224);
+  const std::size_t before = resident_bytes(left->id()), assets = fs::file_size(scene);
+  ASSERT_GE(assets, std::size_t{100'000'000});
+  const std::jthread asks([&] { EXPECT_FALSE(show_scene(controller.endpoint, scene)); });
+  // It begins to build it once all assets are here, and takes more then.
+  ASSERT_TRUE(play_until(
+      {&right}, [&] { return right.prepare && resident_bytes(left->id()) > before + assets * 3 / 2; },
+      kClusterPatience));
+  right.say_prepared("no memory for it");
+  EXPECT_TRUE(play_until(
+      {&right}, [&] { return resident_bytes(left->id()) < before + assets / 2; }, kClusterPatience))
+      << resident_bytes(left->id()) - before << " bytes more than before";
 }
 
 }  // namespace
