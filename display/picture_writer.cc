@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <mutex>
-#include <set>
 
+#include "base/failure_news.h"
 #include "base/log.h"
 #include "calibration/display.h"
 #include "proto/frame_files.h"
@@ -37,7 +37,7 @@ struct PictureWriter::Shared {
   void work();
   void write_module(const Job& job, std::uint32_t module);
   Status write(const std::filesystem::path& path, const ReceivedImage& image) const;
-  void note_failure(const std::filesystem::path& path, const std::string& message);
+  void note(const std::filesystem::path& path, const Status& status);
 
   const std::filesystem::path folder;
   wire::Mailbox<Task> tasks{kFrames * kMaxModules};
@@ -45,8 +45,8 @@ struct PictureWriter::Shared {
   std::atomic<bool> ends = false;
   std::atomic<unsigned> working = 0;  // threads
   std::atomic<std::uint64_t> failed = 0;
-  std::mutex causes_mutex;
-  std::set<std::string> causes;  // logged already
+  std::mutex news_mutex;
+  FailureNews news;
 };
 
 PictureWriter::PictureWriter(std::filesystem::path folder) : shared_(std::make_shared<Shared>(std::move(folder))) {
@@ -103,7 +103,7 @@ void PictureWriter::Shared::write_module(const Job& job, std::uint32_t module) {
     if (image == nullptr || ends) continue;
     const auto path = image_path(folder, job.frame.frame, module, image->what.buffer());
     const Status status = write(path, *image);
-    if (!status && !ends) note_failure(path, status.error().message());
+    if (!ends) note(path, status);
   }
 }
 
@@ -114,11 +114,15 @@ Status PictureWriter::Shared::write(const std::filesystem::path& path, const Rec
   return write_image_file(path, image.what, pixels->text());
 }
 
-void PictureWriter::Shared::note_failure(const std::filesystem::path& path, const std::string& message) {
+void PictureWriter::Shared::note(const std::filesystem::path& path, const Status& status) {
+  const std::lock_guard lock(news_mutex);
+  if (status) {
+    if (const auto missing = news.worked(Clock::now())) log::info("pictures are written again; {} failed", *missing);
+    return;
+  }
   ++failed;
-  const std::string cause = message.substr(message.rfind(": ") + 1);  // without the path in front
-  const std::lock_guard lock(causes_mutex);
-  if (!causes.insert(cause).second) return;
+  const std::string& message = status.error().message();
+  if (!news.failed(message.substr(message.rfind(": ") + 1), Clock::now())) return;  // without the path in front
   log::error("{}; frames go on, further pictures that fail for this reason are only counted", message);
   log::debug("the first of them: {}", path.string());
 }

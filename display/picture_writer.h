@@ -20,8 +20,8 @@ struct Written {
 };
 
 // Frames are decoded and written whole, begun in the order given; at most kFrames are in hand. What cannot be decoded
-// or written (disk full, folder gone) is counted and logged, once per cause; the frame counts as written all the same.
-// One thread uses it.
+// or written (disk full, folder gone) is counted and logged, once per cause until pictures are written again; the frame
+// counts as written all the same. One thread uses it.
 class PictureWriter {
  public:
   static constexpr std::size_t kFrames = 2;

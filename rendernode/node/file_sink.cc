@@ -30,14 +30,20 @@ void FileSink::work() {
         continue;
       }
       const auto path = image_path(folder_, image.header.frame(), image.header.module(), image.header.buffer());
-      const Status written = write_image_file(path, image.header, image.payload.text());
-      if (written) continue;
-      const std::string& message = written.error().message();
-      if (!causes_.insert(message.substr(message.rfind(": ") + 1)).second) continue;
-      log::error("{}; frames go on, further pictures that fail for this reason are not named", message);
+      note(write_image_file(path, image.header, image.payload.text()));
     }
   }
   if (left_out > 0) log::warn("{} pictures are not written any more: the node ends", left_out);
+}
+
+void FileSink::note(const Status& written) {
+  if (written) {
+    if (const auto missing = news_.worked(Clock::now())) log::info("pictures are written again; {} failed", *missing);
+    return;
+  }
+  const std::string& message = written.error().message();
+  if (!news_.failed(message.substr(message.rfind(": ") + 1), Clock::now())) return;  // without the path in front
+  log::error("{}; frames go on, further pictures that fail for this reason are not named", message);
 }
 
 }  // namespace lfd::node

@@ -4,12 +4,13 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "base/clock.h"
+#include "base/failure_news.h"
+#include "base/result.h"
 #include "proto/wire/mailbox.h"
 #include "rendernode/node/image_outbox.h"
 
@@ -26,10 +27,11 @@ class FileSink {
 
  private:
   void work();
+  void note(const Status& written);
 
   std::filesystem::path folder_;
   wire::Mailbox<std::vector<OutgoingImage>> frames_{2};
-  std::set<std::string> causes_;  // of failures, logged already
+  FailureNews news_;
   std::atomic<Clock::time_point> give_up_at_{Clock::time_point::max()};
   std::jthread worker_;
 };
