@@ -12,6 +12,10 @@ std::uint64_t SceneChange::start(const std::vector<std::string>& nodes) {
   return ++number_;
 }
 
+void SceneChange::joins(const std::string& node) {
+  if (pending_) waiting_.insert(node);
+}
+
 void SceneChange::prepared(const std::string& node, std::uint64_t number, const std::string& error) {
   if (!pending_ || number != number_ || waiting_.erase(node) == 0) return;
   if (!error.empty() && error_.empty()) error_ = fmt::format("node \"{}\": {}", node, error);

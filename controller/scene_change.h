@@ -15,13 +15,16 @@ class SceneChange {
  public:
   // A new change, which `nodes` are to prepare; its number.
   std::uint64_t start(const std::vector<std::string>& nodes);
+  // While it is pending: another node is to prepare it too, and is waited for like the others.
+  void joins(const std::string& node);
 
   bool is_pending() const { return pending_; }
   std::uint64_t number() const { return number_; }
 
   // Events. Those of another number have no effect. `error`: it cannot be drawn there; empty: it is prepared.
   void prepared(const std::string& node, std::uint64_t number, const std::string& error);
-  // The node is out, has joined anew or draws other modules: it will take the scene as one that comes late.
+  // The node is out, has joined anew or draws other modules: what it may have prepared is lost. Unless it joins again,
+  // it will take the scene as one that comes late.
   void gone(const std::string& node) { waiting_.erase(node); }
 
   enum class Verdict { kWait, kShow, kRefuse };

@@ -98,6 +98,7 @@ class Daemon {
 
   // daemon_scenes.cc: scenes as they come
   Status take_scene(SceneArrival arrival, Clock::time_point now);
+  void prepares_too(const Peer& peer);  // a node that comes, or draws other modules, while the change is pending
   void settle_scene(Clock::time_point now);
   void show_next_scene(Clock::time_point now);
   void refuse_next_scene(const Error& why);

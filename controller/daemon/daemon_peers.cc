@@ -56,6 +56,7 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
   *welcome.mutable_snapshot() = snapshot();
   send(peer.address, envelope);
   members_.welcomed(peer.name, now);
+  prepares_too(peer);
 }
 
 void Daemon::peer_is_gone(const std::string& name, const char* why) {
@@ -71,6 +72,7 @@ void Daemon::peer_is_back(const Peer& peer) {
   log::info("\"{}\" is heard again", peer.name);
   if (stage_.has_scene()) send_snapshot(peer.address);
   if (peer.role == proto::DISPLAY) publish_images_endpoint();
+  prepares_too(peer);
 }
 
 void Daemon::refuse(const std::string& address, const std::string& reason) {

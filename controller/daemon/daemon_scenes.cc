@@ -19,10 +19,11 @@ Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
     reply(arrival.asker, arrival.request_id, update.error());
     return {};
   }
-  // Those that draw, or are about to; others take the scene when they come.
+  // Those that draw, or are about to; others prepare it when they come.
   std::vector<std::string> nodes;
   for (const Peer* peer : members_.peers()) {
-    if (peer->role == proto::NODE && peer->phase == Phase::kReady && stage_.has_scene()) nodes.push_back(peer->name);
+    const bool is_here = peer->role == proto::NODE && peer->lives() && peer->last_heard;
+    if (is_here && stage_.has_scene()) nodes.push_back(peer->name);
   }
   proto::Envelope envelope;
   envelope.mutable_prepare()->set_number(change_.start(nodes));
@@ -32,6 +33,19 @@ Status Daemon::take_scene(SceneArrival arrival, Clock::time_point now) {
   if (!nodes.empty()) log::info("scene: {} nodes prepare it; the old one is shown until then", nodes.size());
   settle_scene(now);
   return {};
+}
+
+// Else it would be ready with the old scene just before it goes, and everybody would wait for it to load the new one.
+void Daemon::prepares_too(const Peer& peer) {
+  if (!change_.is_pending() || peer.role != proto::NODE) return;
+  Result<proto::Update> update = stage_.preview(*next_scene_->scene);
+  if (!update) return;  // settings that do not fit it have come in between: it will not be shown
+  change_.joins(peer.name);
+  log::info("scene: \"{}\" prepares it too", peer.name);
+  proto::Envelope envelope;
+  envelope.mutable_prepare()->set_number(change_.number());
+  *envelope.mutable_prepare()->mutable_update() = *std::move(update);
+  send(peer.address, envelope);
 }
 
 void Daemon::settle_scene(Clock::time_point now) {

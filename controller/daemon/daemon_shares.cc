@@ -40,6 +40,7 @@ void Daemon::settle_shares(Clock::time_point now) {
     envelope.mutable_assign()->set_share(shares_.number(spare));
     for (const std::uint32_t module : modules) envelope.mutable_assign()->add_modules(module);
     send(peer.address, envelope);
+    prepares_too(peer);
   }
   for (const auto& [spare, owner] : stood_in) {
     if (!owner.empty() && shares_.stands_in_for(spare) != owner)

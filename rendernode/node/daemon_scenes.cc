@@ -8,6 +8,10 @@ namespace lfd::node {
 
 void Daemon::take_prepare(const proto::Prepare& message) {
   if (!message.has_update() || !follower_.state()) return drop_prepared();
+  if (preparation_ && preparation_->number == message.number()) {  // the controller thought that this node was gone
+    if (preparation_->is_built) say_prepared("");
+    return;
+  }
   forget_prepared();
   auto state = std::make_shared<proto::State>(*follower_.state());
   *state->mutable_scene() = message.update().scene();

@@ -149,5 +149,37 @@ TEST(SceneChange, ThatIsRefusedLeavesNothingInMemory) {
       << resident_bytes(left->id()) - before << " bytes more than before";
 }
 
+// Restarted while the others prepare the new scene, it draws the old one: after the change it would have to load the
+// new one first, and everybody would wait for it.
+TEST(SceneChange, WaitsForANodeThatComesInBetween) {
+  const Workbench bench;
+  const auto controller = start_controller(bench.deployment("sink: NONE pacing { heartbeat_ms: 100 }"));
+  PlayedNode left("left", controller.endpoint);
+  std::optional<PlayedNode> right(std::in_place, "right", controller.endpoint);
+  left.habits.prepares = right->habits.prepares = false;
+  ASSERT_TRUE(play_until({&left, &*right}, [&] { return left.named.size() > 2 && right->named.size() > 2; }));
+  const fs::path scene = write_scene(bench.folder() / "noise.glb", 1, 16);
+  std::optional<Status> answer;
+  std::jthread asks([&] { answer = show_scene(controller.endpoint, scene); });
+  ASSERT_TRUE(play_until({&left, &*right}, [&] { return left.prepare && right->prepare; }));
+  right->leave();
+  ASSERT_TRUE(play_until({&left, &*right}, [&] { return lines_with(*controller.process, "is out: the play") == 1; }));
+  PlayedNode::Habits slow;
+  slow.prepares = false;
+  slow.process = 2;
+  right.emplace("right", controller.endpoint, slow);
+  ASSERT_TRUE(play_until({&left, &*right}, [&] { return right->named.size() > 2 && right->prepare; }));
+  left.say_prepared("");
+  const std::size_t drawn = right->named.size();
+  ASSERT_TRUE(play_until({&left, &*right}, [&] { return right->named.size() > drawn + 5; }));
+  for (const PlayedNode* node : {&left, &*right}) EXPECT_NE(node->state.scene().name(), "noise");
+  right->say_prepared("");
+  ASSERT_TRUE(play_until({&left, &*right}, [&] {
+    return left.state.scene().name() == "noise" && right->state.scene().name() == "noise";
+  }));
+  asks.join();
+  EXPECT_TRUE(answer && *answer);
+}
+
 }  // namespace
 }  // namespace lfd::harness

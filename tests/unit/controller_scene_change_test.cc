@@ -38,6 +38,25 @@ TEST(SceneChange, DoesNotWaitForWhoIsGone) {
   EXPECT_EQ(change.verdict(), Verdict::kShow);
 }
 
+// Restarted in between: the new process has prepared nothing yet.
+TEST(SceneChange, WaitsForWhoJoinsWhileItIsPending) {
+  SceneChange change;
+  change.joins("early");
+  const auto number = change.start({"a", "b"});
+  change.gone("b");
+  change.joins("b");
+  change.joins("c");
+  change.prepared("a", number, "");
+  EXPECT_EQ(change.verdict(), Verdict::kWait);
+  change.prepared("b", number, "");
+  EXPECT_EQ(change.verdict(), Verdict::kWait);
+  change.gone("c");
+  EXPECT_EQ(change.verdict(), Verdict::kShow);
+  change.joins("c");
+  change.prepared("c", number, "no memory");
+  EXPECT_EQ(change.verdict(), Verdict::kRefuse);
+}
+
 TEST(SceneChange, IsRefusedWhereOneNodeCannot) {
   SceneChange change;
   const auto number = change.start({"a", "b", "c"});
