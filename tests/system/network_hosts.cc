@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <charconv>
 #include <filesystem>
 
 #include "base/log.h"
@@ -22,7 +23,8 @@ std::optional<std::string> find_program(const std::string& name) {
   return std::nullopt;
 }
 
-Status run(std::vector<std::string> command) {
+// What the command says.
+Result<std::vector<std::string>> said_by(std::vector<std::string> command) {
   const auto program = find_program(command[0]);
   if (!program) return Error(fmt::format("{} is not installed", command[0]));
   const std::string words = fmt::format("{}", fmt::join(command, " "));
@@ -30,8 +32,25 @@ Status run(std::vector<std::string> command) {
   LFD_TRY(auto process,
           Process::start({.name = words, .command = std::move(command), .on_line = {}, .environment = {}}));
   const auto exit = process->wait(kPatience);
-  if (exit && exit->succeeded()) return {};
+  if (exit && exit->succeeded()) return process->lines();
   return Error(fmt::format("{}: {}", words, fmt::join(process->lines(), "; ")));
+}
+
+Status run(std::vector<std::string> command) {
+  const auto said = said_by(std::move(command));
+  return said ? Status() : Status(said.error());
+}
+
+// The number behind `word` in the first line that has one.
+std::uint64_t number_behind(const std::string& word, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    const std::size_t at = line.find(word + " ");
+    std::uint64_t number = 0;
+    if (at == std::string::npos) continue;
+    const char* const digits = line.data() + at + word.size() + 1;
+    if (std::from_chars(digits, line.data() + line.size(), number).ec == std::errc()) return number;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -76,12 +95,18 @@ Status SecondHost::lose_packets(int percent) {
   if (!find_program("nft")) return Error("nftables are not installed");
   LFD_TRY_STATUS(nft({"add", "table", "ip", "lossy"}));
   LFD_TRY_STATUS(nft({"add chain ip lossy in { type filter hook input priority 0; }"}));
-  return nft({fmt::format("add rule ip lossy in numgen random mod 100 < {} drop", percent)});
+  return nft({fmt::format("add rule ip lossy in numgen random mod 100 < {} counter drop", percent)});
 }
 
 Status SecondHost::limit_bandwidth(int kbit_s) {
   return run({"tc", "-n", name_, "qdisc", "add", "dev", cable_there_, "root", "tbf", "rate",
               fmt::format("{}kbit", kbit_s), "burst", "16kb", "latency", "200ms"});
+}
+
+Result<std::uint64_t> SecondHost::hindered_packets() const {
+  LFD_TRY(const auto limit, said_by({"tc", "-n", name_, "-s", "qdisc", "show", "dev", cable_there_}));
+  const auto loss = said_by({"ip", "netns", "exec", name_, "nft", "list", "table", "ip", "lossy"});
+  return number_behind("overlimits", limit) + (loss ? number_behind("packets", *loss) : 0);
 }
 
 Status SecondHost::clear() {

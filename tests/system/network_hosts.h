@@ -1,6 +1,7 @@
 // A second host on this machine: a network namespace joined by a cable (veth), which a test may cut, spoil and narrow.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,9 @@ class SecondHost {
   Status lose_packets(int percent);    // at random, of those that come in there
   Status limit_bandwidth(int kbit_s);  // of what is sent from there
   Status clear();                      // loss and limits end
+
+  // Packets that were lost on purpose, or had to wait for the limit, since that was set.
+  Result<std::uint64_t> hindered_packets() const;
 
  private:
   SecondHost() = default;
