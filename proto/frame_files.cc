@@ -2,6 +2,7 @@
 #include "proto/frame_files.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <regex>
 #include <vector>
@@ -73,6 +74,21 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, std::uint6
 std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
                                  proto::BufferKind buffer) {
   return frame_path(folder, frame) / fmt::format("module-{:03}.{}", module, ending(buffer));
+}
+
+std::set<std::uint64_t> frames_in(const std::filesystem::path& folder) {
+  constexpr std::string_view kPrefix = "frame-";
+  std::set<std::uint64_t> frames;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kPrefix)) continue;
+    std::uint64_t frame = 0;
+    const auto [rest, error] = std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), frame);
+    if (error == std::errc() && rest == name.data() + name.size()) frames.insert(frame);
+  }
+  return frames;
 }
 
 std::filesystem::path report_path(const std::filesystem::path& folder) { return folder / "report.json"; }

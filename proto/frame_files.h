@@ -1,7 +1,9 @@
 // Files of finished frames: what they are called and what is in them, whoever writes them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "base/result.h"
@@ -15,6 +17,9 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, std::uint6
 // folder/frame-0000/module-000.color.png, .position.exr, .normal.exr, .ao.exr, .depth.exr or .bent_normal.exr.
 std::filesystem::path image_path(const std::filesystem::path& folder, std::uint64_t frame, std::uint32_t module,
                                  proto::BufferKind buffer);
+
+// The frames that lie in a folder: whose folders are there, empty or not. None where the folder cannot be read.
+std::set<std::uint64_t> frames_in(const std::filesystem::path& folder);
 
 // folder/report.json: what was drawn, beside the frames.
 std::filesystem::path report_path(const std::filesystem::path& folder);

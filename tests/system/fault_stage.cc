@@ -90,13 +90,8 @@ std::map<int, std::string> FaultStage::pictures_of(std::uint64_t frame) const {
 }
 
 std::optional<std::uint64_t> FaultStage::last_shown_frame() const {
-  std::optional<std::uint64_t> last;
-  std::error_code failure;
-  for (fs::directory_iterator entry(shown(), failure), end; !failure && entry != end; entry.increment(failure)) {
-    const std::string name = entry->path().filename().string();
-    if (name.starts_with("frame-")) last = std::max(last.value_or(0), std::uint64_t{std::stoull(name.substr(6))});
-  }
-  return last;
+  const std::set<std::uint64_t> frames = frames_in(shown());
+  return frames.empty() ? std::nullopt : std::optional(*frames.rbegin());
 }
 
 testing::AssertionResult FaultStage::shows_frames_after(std::uint64_t frame) const {

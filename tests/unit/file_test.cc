@@ -75,6 +75,13 @@ TEST_F(Files, HaveTheirFolderToOneWriterAtATime) {
   EXPECT_FALSE(FolderLock::take(folder_ / "none"));
 }
 
+TEST_F(Files, OfFramesTellTheirNumbers) {
+  EXPECT_TRUE(frames_in(folder_ / "none").empty());
+  for (const char* const name : {"frame-0007", "frame-12345", "frame-", "frame-3x", "frame", "picture-0001"})
+    ASSERT_TRUE(make_folder(folder_ / name));
+  EXPECT_EQ(frames_in(folder_), (std::set<std::uint64_t>{7, 12345}));
+}
+
 TEST_F(Files, OfEarlierFramesAreRemovedAndNoOthers) {
   const fs::path out = folder_ / "out";
   for (int frame : {0, 1}) ASSERT_TRUE(make_folder(frame_path(out, static_cast<std::uint64_t>(frame))));
