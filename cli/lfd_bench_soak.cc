@@ -32,7 +32,7 @@ int bench_soak(const Arguments& a) {
     if (const Status written = write_file(a.out, bench::text_of(*table)); !written) return fail(written.error());
   }
   const int printed = end_of_output();
-  return table->broken.empty() ? printed : kExitFailed;
+  return table->broken.empty() ? printed : table->exit_code();
 }
 
 }  // namespace

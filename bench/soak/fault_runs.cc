@@ -3,6 +3,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -15,6 +16,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPatience = 30s;  // for what a process is to do by itself
+// Frames go on so long without a display: it is out once it is silent for six heartbeats, the first of which may have
+// been due just when it was taken away.
+constexpr auto kDisplayMissed = 5 * std::chrono::milliseconds(kHeartbeat_ms);
 
 Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
@@ -78,9 +82,7 @@ class Run {
   FaultChoice& choice_;
 };
 
-}  // namespace
-
-Status carry_out(Fault fault, SoakCluster& cluster, FaultChoice& choice) {
+Status do_to(SoakCluster& cluster, FaultChoice& choice, Fault fault) {
   Run run(cluster, choice);
   switch (fault) {
     case Fault::kKillNode:
@@ -120,6 +122,17 @@ Status carry_out(Fault fault, SoakCluster& cluster, FaultChoice& choice) {
       return run.kill_for_a_while({"controller"});
   }
   return {};
+}
+
+}  // namespace
+
+Result<Clock::duration> carry_out(Fault fault, SoakCluster& cluster, FaultChoice& choice) {
+  const auto begun = Clock::now();
+  LFD_TRY_STATUS(do_to(cluster, choice, fault));
+  const Clock::duration took = Clock::now() - begun;
+  if (fault == Fault::kStopController || fault == Fault::kKillController) return took;
+  if (fault == Fault::kStopDisplay || fault == Fault::kKillDisplay) return std::max(took - kDisplayMissed, 0ns);
+  return 0ns;
 }
 
 }  // namespace lfd::bench

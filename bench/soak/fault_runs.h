@@ -7,6 +7,7 @@
 namespace lfd::bench {
 
 // Errors: a signal came; a process could not be started, or did not do what was planted in it.
-Status carry_out(Fault fault, SoakCluster& cluster, FaultChoice& choice);
+// How long nothing could be shown because the controller or the display was stopped or dead; zero in other faults.
+Result<Clock::duration> carry_out(Fault fault, SoakCluster& cluster, FaultChoice& choice);
 
 }  // namespace lfd::bench

@@ -50,7 +50,7 @@ const char* name_of(Fault fault) {
 }
 
 Fault FaultChoice::next(bool gentle) {
-  const auto fits = [gentle](Fault fault) { return !gentle || fault <= kLastGentle; };
+  const auto fits = [gentle](Fault fault) { return gentle == (fault <= kLastGentle); };
   if (left_.empty() || gentle != gentle_) {
     gentle_ = gentle;
     left_.clear();

@@ -23,7 +23,7 @@ enum class Fault {
   kStopController,
   kRemoveFolder,  // that the display writes to
   kChangeScene,   // no fault, but nothing may come of it
-  // After these the others are new.
+  // One of the others dies.
   kKillOtherNode,
   kKillDisplay,
   kKillController,
@@ -31,13 +31,13 @@ enum class Fault {
 
 const char* name_of(Fault fault);
 
-// Faults in an order that the seed alone decides: each kind once, in a random order, then each kind once again, and so
-// on.
+// Faults in an order that the seed alone decides: each kind that may come once, in a random order, then each once
+// again, and so on.
 class FaultChoice {
  public:
   explicit FaultChoice(std::uint64_t seed) : random_(seed) {}
 
-  // `gentle`: only such as the controller, the display and the other node live through.
+  // `gentle`: such as the controller, the display and the other node live through; else such as kill one of them.
   Fault next(bool gentle);
 
   // Uniform between both.

@@ -23,6 +23,30 @@ Rgb8 shown(const proto::Color& color) {
   return {byte(color.r()), byte(color.g()), byte(color.b())};
 }
 
+proto::Color linear(const Rgb8& bytes) {
+  proto::Color color;
+  color.set_r(static_cast<float>(linear_from_srgb(bytes[0] / 255.0)));
+  color.set_g(static_cast<float>(linear_from_srgb(bytes[1] / 255.0)));
+  color.set_b(static_cast<float>(linear_from_srgb(bytes[2] / 255.0)));
+  return color;
+}
+
+std::optional<Rgb8> own_color_of(const proto::Scene& scene) {
+  const auto own = std::ranges::find_if(scene.material(), &proto::Material::unlit);
+  if (own == scene.material().end() || own->base_color_size() < 3) return std::nullopt;
+  proto::Color color;
+  color.set_r(own->base_color(0));
+  color.set_g(own->base_color(1));
+  color.set_b(own->base_color(2));
+  return shown(color);
+}
+
+// What holds at this sequence.
+std::optional<Rgb8> latest(const std::map<std::uint64_t, std::optional<Rgb8>>& by_sequence, std::uint64_t sequence) {
+  const auto after = by_sequence.upper_bound(sequence);
+  return after == by_sequence.begin() ? std::nullopt : std::prev(after)->second;
+}
+
 bool alike(const Rgb8& a, const Rgb8& b) {
   return std::ranges::equal(a, b, [](int x, int y) { return std::abs(x - y) <= kTolerance; });
 }
@@ -38,13 +62,15 @@ Rgb8 shown_background_of(std::uint64_t n) {
   return {byte_of(n % kLevels), byte_of(n / kLevels % kLevels), byte_of(n / (kLevels * kLevels) % kLevels)};
 }
 
-proto::Color background_of(std::uint64_t n) {
-  const Rgb8 bytes = shown_background_of(n);
-  proto::Color color;
-  color.set_r(static_cast<float>(linear_from_srgb(bytes[0] / 255.0)));
-  color.set_g(static_cast<float>(linear_from_srgb(bytes[1] / 255.0)));
-  color.set_b(static_cast<float>(linear_from_srgb(bytes[2] / 255.0)));
-  return color;
+proto::Color background_of(std::uint64_t n) { return linear(shown_background_of(n)); }
+
+void give_own_color(proto::Scene& scene, const Rgb8& color) {
+  proto::Material& material = *scene.mutable_material()->rbegin();
+  const proto::Color own = linear(color);
+  material.clear_base_color();
+  for (const double channel : {own.r(), own.g(), own.b(), 1.0}) material.add_base_color(static_cast<float>(channel));
+  material.clear_texture();
+  material.set_unlit(true);
 }
 
 void FrameChecker::restarted() { *this = {}; }
@@ -52,6 +78,11 @@ void FrameChecker::restarted() { *this = {}; }
 void FrameChecker::background(std::uint64_t sequence, const proto::Color& color) {
   background_[sequence] = shown(color);
   forget_oldest(background_, kRemembered);
+}
+
+void FrameChecker::scene(std::uint64_t sequence, const proto::Scene& scene) {
+  scene_[sequence] = own_color_of(scene);
+  forget_oldest(scene_, kRemembered);
 }
 
 void FrameChecker::begun(std::uint64_t frame, std::uint64_t sequence) {
@@ -66,18 +97,17 @@ void FrameChecker::swapped(std::uint64_t frame, std::set<std::uint32_t> stale_mo
 }
 
 std::optional<FrameChecker::Verdict> FrameChecker::judge(std::uint64_t frame,
-                                                         const std::map<std::uint32_t, Rgb8>& seen) const {
+                                                         const std::map<std::uint32_t, Pixels>& seen) const {
   const auto begun = sequence_.find(frame);
   const auto swapped = stale_.find(frame);
   if (begun == sequence_.end() || swapped == stale_.end()) return std::nullopt;
-  auto of_state = background_.upper_bound(begun->second);
-  if (of_state == background_.begin()) return std::nullopt;
-  --of_state;
+  const auto background = latest(background_, begun->second), scene = latest(scene_, begun->second);
+  if (!background || !scene) return std::nullopt;
   Verdict verdict;
-  for (const auto& [module, color] : seen) {
+  for (const auto& [module, pixels] : seen) {
     if (swapped->second.contains(module)) continue;
     ++verdict.fresh;
-    if (!alike(color, of_state->second)) ++verdict.wrong;
+    if (!alike(pixels.background, *background) || !alike(pixels.scene, *scene)) ++verdict.wrong;
   }
   return verdict;
 }

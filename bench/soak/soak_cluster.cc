@@ -4,6 +4,8 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "base/file.h"
 #include "base/log.h"
@@ -23,7 +25,11 @@ namespace fs = std::filesystem;
 
 constexpr int kModules = 8;
 constexpr ImageSize kImage{64, 48};
-constexpr auto kChangePause = 150ms, kLookPause = 100ms, kTick = 10ms;
+constexpr std::size_t kMiddle = std::size_t{4} * (kImage.height / 2 * kImage.width + kImage.width / 2);
+constexpr const char* kProcesses[] = {"controller", "display", "left", "right", "reserve"};
+constexpr Rgb8 kFirstColor{210, 60, 100}, kOtherColor{40, 170, 220};  // of the shells, which cover the middle pixels
+constexpr auto kChangePause = 150ms, kRest = 400ms, kLookPause = 100ms, kTick = 10ms;
+constexpr int kChangesBetweenRests = 4;
 constexpr auto kAnswerPatience = 300ms;  // the controller may be stopped
 constexpr auto kScenePatience = 30s;
 constexpr std::uint64_t kFramesInHand = 4;  // of a display's writers, and one more
@@ -34,21 +40,22 @@ Status SoakCluster::write_files() {
   LFD_TRY(DisplayCalibration display, make_display("desk", kModules));
   display.image = kImage;
   LFD_TRY_STATUS(save_calibration(folder_.path() / "display.textproto", display));
-  for (const auto& [file, seed] : {std::pair{"first.glb", 1u}, std::pair{"other.glb", 2u}}) {
-    LFD_TRY(const LoadedScene scene, scene::make_scene("ribbed-shell", seed));
+  for (const auto& [file, seed, color] :
+       {std::tuple{"other.glb", 2u, kOtherColor}, std::tuple{"first.glb", 1u, kFirstColor}}) {
+    LFD_TRY(LoadedScene scene, scene::make_scene("ribbed-shell", seed));
+    give_own_color(scene.data.scene, color);
     LFD_TRY_STATUS(scene::write_glb(folder_.path() / file, scene.data));
+    first_scene_ = scene.data.scene;
   }
   control_ = free_endpoint();
   state_ = free_endpoint();
-  // Heartbeats of 100 ms: a process that is silent for 0.6 s is out.
   return write_file(
       folder_.path() / "soak.textproto",
-      fmt::format(
-          "name: \"soak\" display: \"display.textproto\" scene {{ made {{ name: \"ribbed-shell\" seed: 1 }} }}\n"
-          "node {{ name: \"left\" }} node {{ name: \"right\" }} node {{ name: \"reserve\" spare: true }}\n"
-          "pacing {{ frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 }} sink: DISPLAY\n"
-          "addresses {{ control: \"{}\" state: \"{}\" bulk: \"{}\" images: \"{}\" }}\n",
-          control_, state_, free_endpoint(), free_endpoint()));
+      fmt::format("name: \"soak\" display: \"display.textproto\" scene {{ file: \"first.glb\" }} sink: DISPLAY\n"
+                  "node {{ name: \"left\" }} node {{ name: \"right\" }} node {{ name: \"reserve\" spare: true }}\n"
+                  "pacing {{ frames_per_second: {} heartbeat_ms: {} deadline_ms: {} }}\n"
+                  "addresses {{ control: \"{}\" state: \"{}\" bulk: \"{}\" images: \"{}\" }}\n",
+                  kFramesPerSecond, kHeartbeat_ms, kDeadline_ms, control_, state_, free_endpoint(), free_endpoint()));
 }
 
 Result<std::unique_ptr<SoakCluster>> SoakCluster::start(StopSignals& signals) {
@@ -59,8 +66,7 @@ Result<std::unique_ptr<SoakCluster>> SoakCluster::start(StopSignals& signals) {
   LFD_TRY(cluster->listener_, Listener::open(cluster->state_));
   LFD_TRY(ControlClient client, ControlClient::connect(cluster->control_));
   cluster->client_ = std::make_unique<ControlClient>(std::move(client));
-  for (const char* const name : {"controller", "display", "left", "right", "reserve"})
-    LFD_TRY_STATUS(cluster->daemons_->start(name));
+  for (const char* const name : kProcesses) LFD_TRY_STATUS(cluster->daemons_->start(name));
   return cluster;
 }
 
@@ -86,9 +92,9 @@ bool SoakCluster::is_whole() {
   const auto now = status();
   if (!now || now->stale_modules() > 0) return false;
   const bool all_ready = std::ranges::all_of(now->peer(), [&](const proto::PeerStatus& peer) {
-    const bool holds = peer.role() != proto::NODE || peer.state_hash() == now->state_hash() || peer.module_size() == 0;
     if (static_cast<int>(peer.process()) != daemons_->at(peer.name()).id()) return false;  // that one has gone
-    return peer.state() == "ready" || (peer.state() == "late" && holds);
+    const bool holds = peer.role() != proto::NODE || peer.state_hash() == now->state_hash();
+    return holds && (peer.state() == "ready" || peer.state() == "late");
   });
   return all_ready && now->peer_size() == 4;
 }
@@ -112,37 +118,52 @@ Result<bool> SoakCluster::look_until(const std::function<bool()>& done, Clock::d
   }
 }
 
-void SoakCluster::expect_frames(bool expected) {
-  frames_expected_ = expected;
-  last_swap_.reset();
+Clock::duration SoakCluster::longest_pause() {
+  hear();
+  return pauses_.longest(Clock::now());
+}
+
+void SoakCluster::forget_pauses() {
+  hear();
+  pauses_.start_anew();
+}
+
+std::vector<std::string> SoakCluster::dead() const {
+  std::vector<std::string> dead;
+  for (const char* const name : kProcesses) {
+    const auto exit = daemons_->at(name).poll();
+    if (!exit) continue;
+    const std::vector<std::string> lines = daemons_->at(name).lines();
+    dead.push_back(fmt::format("{} has ended ({}): {}", name, exit->text(), lines.empty() ? "no words" : lines.back()));
+  }
+  return dead;
 }
 
 void SoakCluster::hear() {
   const auto on_session = [this] {
     checker_.restarted();
+    checker_.scene(0, first_scene_);
+    other_scene_ = false;
     late_before_ += late_now_;
     late_now_ = 0;
-    last_swap_.reset();
   };
-  listener_->hear(on_session, [this](const proto::Envelope& envelope) {
+  listener_->hear(on_session, [this](const proto::Envelope& envelope, Clock::time_point at) {
+    if (envelope.has_update() && envelope.update().has_scene())
+      checker_.scene(envelope.update().sequence(), envelope.update().scene());
     if (envelope.has_update() && envelope.update().has_render())
       checker_.background(envelope.update().sequence(), envelope.update().render().background());
     if (envelope.has_begin()) checker_.begun(envelope.begin().frame(), envelope.begin().sequence());
     if (!envelope.has_swap()) return;
     const auto& stale = envelope.swap().stale_modules();
     checker_.swapped(envelope.swap().frame(), {stale.begin(), stale.end()});
-    const auto now = Clock::now();
-    if (frames_expected_ && last_swap_) {
-      const double pause_s = milliseconds(now - *last_swap_) / 1000;
-      counts.longest_pause_s = std::max(counts.longest_pause_s, pause_s);
-    }
-    last_swap_ = now;
+    pauses_.swapped(at);
   });
 }
 
 void SoakCluster::change_state() {
   if (Clock::now() < next_change_) return;
-  next_change_ = Clock::now() + kChangePause;
+  // Nodes say with their heartbeats what they hold: in a rest all are seen to hold the same.
+  next_change_ = Clock::now() + (++changes_ % kChangesBetweenRests == 0 ? kRest : kChangePause);
   const auto now = status();
   if (!now) return;
   proto::Request request;
@@ -154,13 +175,8 @@ void SoakCluster::change_state() {
 void SoakCluster::look_at_frames() {
   if (Clock::now() < next_look_) return;
   next_look_ = Clock::now() + kLookPause;
-  std::set<std::uint64_t> frames;
+  const std::set<std::uint64_t> frames = frames_in(daemons_->shown());
   std::error_code failure;
-  for (fs::directory_iterator entry(daemons_->shown(), failure), end; !failure && entry != end;
-       entry.increment(failure)) {
-    const std::string name = entry->path().filename().string();
-    if (name.starts_with("frame-")) frames.insert(std::stoull(name.substr(6)));
-  }
   const std::uint64_t last_swapped = last_frame();
   for (const std::uint64_t frame : frames) {
     if (frame > last_swapped + kFramesInHand) {  // of another life of the controller
@@ -174,12 +190,16 @@ void SoakCluster::look_at_frames() {
 }
 
 void SoakCluster::look_at_frame(std::uint64_t frame) {
-  std::map<std::uint32_t, Rgb8> seen;
+  std::map<std::uint32_t, FrameChecker::Pixels> seen;
   for (std::uint32_t module = 0; module < kModules; ++module) {
     const auto path = image_path(daemons_->shown(), frame, module, proto::COLOR);
     if (!fs::exists(path)) continue;
     const auto picture = read_png(path);
-    if (picture) seen[module] = {picture->rgba[0], picture->rgba[1], picture->rgba[2]};
+    if (!picture || picture->rgba.size() <= kMiddle + 2) continue;
+    const auto pixel = [&picture](std::size_t at) {
+      return Rgb8{picture->rgba[at], picture->rgba[at + 1], picture->rgba[at + 2]};
+    };
+    seen[module] = {.background = pixel(0), .scene = pixel(kMiddle)};
   }
   const auto verdict = checker_.judge(frame, seen);
   if (!verdict) return;

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "base/clock.h"
@@ -13,7 +12,8 @@
 #include "bench/common/daemons.h"
 #include "bench/soak/frame_checker.h"
 #include "bench/soak/listener.h"
-#include "bench/soak/soak.h"
+#include "bench/soak/pause_watch.h"
+#include "bench/soak/soak_table.h"
 #include "cli/control_client.h"
 
 namespace lfd::bench {
@@ -38,8 +38,12 @@ class SoakCluster {
   std::optional<proto::Status> status();
   std::uint64_t last_frame() const { return checker_.last_swapped().value_or(0); }
 
-  // While this is false, frames may pause: the controller or the display is not there.
-  void expect_frames(bool expected);
+  // Between two swaps, since forget_pauses; one that goes on counts so far.
+  Clock::duration longest_pause();
+  void forget_pauses();
+
+  // Of the processes that nobody took away, those that have ended, and by what.
+  std::vector<std::string> dead() const;
 
   // Counts so far.
   SoakTable counts;
@@ -60,10 +64,9 @@ class SoakCluster {
   std::unique_ptr<Listener> listener_;
   FrameChecker checker_;
   bool other_scene_ = false;
-  std::uint64_t painted_ = 0, late_before_ = 0, late_now_ = 0;
-  std::uint64_t whole_at_frame_ = 0;
-  bool frames_expected_ = false;
-  std::optional<Clock::time_point> last_swap_;
+  std::uint64_t changes_ = 0, painted_ = 0, late_before_ = 0, late_now_ = 0;
+  PauseWatch pauses_;
+  proto::Scene first_scene_;
   Clock::time_point next_change_{}, next_look_{};
 };
 

@@ -1,4 +1,5 @@
 // What a soak judges by: frames of one state, colours that cannot be mistaken, faults that the seed decides.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -6,10 +7,16 @@
 
 #include "bench/soak/faults.h"
 #include "bench/soak/frame_checker.h"
-#include "bench/soak/soak.h"
+#include "bench/soak/pause_watch.h"
+#include "bench/soak/soak_table.h"
 
 namespace lfd::bench {
 namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::IsEmpty;
 
 TEST(FrameChecker, NoTwoOfManyColoursAreAlike) {
   std::set<Rgb8> colors;
@@ -18,54 +25,109 @@ TEST(FrameChecker, NoTwoOfManyColoursAreAlike) {
   EXPECT_EQ(shown_background_of(343), shown_background_of(0));
 }
 
+constexpr Rgb8 kOneScene{200, 50, 90}, kOtherScene{30, 160, 220};
+
+// As the shell of a made scene: lit and textured, until it is given its colour.
+proto::Scene scene_of(const Rgb8& color) {
+  proto::Scene scene;
+  scene.add_material()->set_name("floor");
+  scene.add_material()->mutable_texture()->set_picture("nacre");
+  give_own_color(scene, color);
+  return scene;
+}
+
+FrameChecker::Pixels pixels_of(std::uint64_t background, const Rgb8& scene) {
+  return {.background = shown_background_of(background), .scene = scene};
+}
+
 class Checker : public testing::Test {
  protected:
   void SetUp() override {
+    checker_.scene(2, scene_of(kOneScene));
     checker_.background(5, background_of(1));
     checker_.background(8, background_of(2));
+    checker_.scene(9, scene_of(kOtherScene));
     checker_.begun(10, 7);
     checker_.begun(11, 8);
+    checker_.begun(12, 9);
     checker_.swapped(10, {});
     checker_.swapped(11, {3});
+    checker_.swapped(12, {});
   }
   FrameChecker checker_;
 };
 
 TEST_F(Checker, AFrameOfItsStateIsRight) {
-  const auto verdict = checker_.judge(10, {{0, shown_background_of(1)}, {1, shown_background_of(1)}});
+  const auto verdict = checker_.judge(10, {{0, pixels_of(1, kOneScene)}, {1, pixels_of(1, kOneScene)}});
   ASSERT_TRUE(verdict);
   EXPECT_EQ(verdict->fresh, 2);
   EXPECT_EQ(verdict->wrong, 0);
 }
 
 TEST_F(Checker, AModuleOfAnotherStateIsWrongUnlessItIsStale) {
-  const auto mixed = checker_.judge(11, {{0, shown_background_of(2)}, {1, shown_background_of(1)}});
+  const auto mixed = checker_.judge(11, {{0, pixels_of(2, kOneScene)}, {1, pixels_of(1, kOneScene)}});
   ASSERT_TRUE(mixed);
   EXPECT_EQ(mixed->wrong, 1);
-  const auto stale = checker_.judge(11, {{0, shown_background_of(2)}, {3, shown_background_of(1)}});
+  const auto stale = checker_.judge(11, {{0, pixels_of(2, kOneScene)}, {3, pixels_of(1, kOneScene)}});
   ASSERT_TRUE(stale);
   EXPECT_EQ(stale->fresh, 1);
   EXPECT_EQ(stale->wrong, 0);
 }
 
+TEST_F(Checker, AModuleOfAnotherSceneIsWrongThoughItsBackgroundIsRight) {
+  const auto after = checker_.judge(12, {{0, pixels_of(2, kOtherScene)}, {1, pixels_of(2, kOneScene)}});
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->wrong, 1) << "the old scene after the change";
+  const auto before = checker_.judge(11, {{0, pixels_of(2, kOneScene)}, {1, pixels_of(2, kOtherScene)}});
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->wrong, 1) << "the new scene before the change";
+}
+
 TEST_F(Checker, RoundingIsNoOtherColour) {
-  Rgb8 color = shown_background_of(2);
-  color[1] += 2;
-  EXPECT_EQ(checker_.judge(11, {{0, color}})->wrong, 0);
-  color[1] += 8;
-  EXPECT_EQ(checker_.judge(11, {{0, color}})->wrong, 1);
+  FrameChecker::Pixels pixels = pixels_of(2, kOneScene);
+  pixels.background[1] += 2;
+  pixels.scene[0] += 2;
+  EXPECT_EQ(checker_.judge(11, {{0, pixels}})->wrong, 0);
+  pixels.background[1] += 8;
+  EXPECT_EQ(checker_.judge(11, {{0, pixels}})->wrong, 1);
 }
 
 TEST_F(Checker, WhatIsNotKnownIsNotJudged) {
-  EXPECT_FALSE(checker_.judge(12, {{0, shown_background_of(2)}}));
-  checker_.begun(12, 8);
-  EXPECT_FALSE(checker_.judge(12, {{0, shown_background_of(2)}})) << "it has not been swapped";
-  checker_.begun(13, 3);
-  checker_.swapped(13, {});
-  EXPECT_FALSE(checker_.judge(13, {{0, shown_background_of(2)}})) << "nothing was heard of that state";
+  const FrameChecker::Pixels pixels = pixels_of(2, kOtherScene);
+  EXPECT_FALSE(checker_.judge(13, {{0, pixels}}));
+  checker_.begun(13, 9);
+  EXPECT_FALSE(checker_.judge(13, {{0, pixels}})) << "it has not been swapped";
+  checker_.begun(14, 3);
+  checker_.swapped(14, {});
+  EXPECT_FALSE(checker_.judge(14, {{0, pixels}})) << "nothing was heard of that state";
+  checker_.scene(10, proto::Scene());
+  checker_.begun(15, 10);
+  checker_.swapped(15, {});
+  EXPECT_FALSE(checker_.judge(15, {{0, pixels}})) << "that scene has no colour of its own";
   checker_.restarted();
-  EXPECT_FALSE(checker_.judge(11, {{0, shown_background_of(2)}}));
+  EXPECT_FALSE(checker_.judge(11, {{0, pixels}}));
   EXPECT_FALSE(checker_.last_swapped());
+}
+
+TEST(OwnColor, LeavesNoTextureOrLightToTheLastMaterialAlone) {
+  const proto::Scene scene = scene_of(kOneScene);
+  EXPECT_FALSE(scene.material(0).unlit());
+  EXPECT_TRUE(scene.material(1).unlit());
+  EXPECT_FALSE(scene.material(1).has_texture());
+  EXPECT_EQ(scene.material(1).base_color_size(), 4);
+}
+
+TEST(PauseWatch, CountsTheLongestAndTheOneThatGoesOn) {
+  const Clock::time_point start{};
+  PauseWatch watch;
+  EXPECT_EQ(watch.longest(start + 9s), 0s) << "nothing has been shown yet";
+  for (const auto at : {0ms, 50ms, 450ms, 500ms}) watch.swapped(start + at);
+  EXPECT_EQ(watch.longest(start + 510ms), 400ms);
+  EXPECT_EQ(watch.longest(start + 2500ms), 2s);
+  watch.start_anew();
+  EXPECT_EQ(watch.longest(start + 510ms), 10ms);
+  watch.swapped(start + 800ms);
+  EXPECT_EQ(watch.longest(start + 800ms), 300ms) << "it had begun before";
 }
 
 TEST(FaultChoice, IsDecidedByTheSeedAndLeavesNoKindOut) {
@@ -81,19 +143,104 @@ TEST(FaultChoice, IsDecidedByTheSeedAndLeavesNoKindOut) {
   }
   EXPECT_TRUE(differs);
   for (const auto& [fault, times] : seen) EXPECT_EQ(times, 3) << name_of(fault);
-  std::set<Fault> harsh;
-  for (int i = 0; i < 16; ++i) harsh.insert(one.next(false));
-  EXPECT_TRUE(harsh.contains(Fault::kKillController));
-  EXPECT_EQ(harsh.size(), 16U);
+  std::set<Fault> killing;
+  for (int i = 0; i < 3; ++i) killing.insert(one.next(false));
+  EXPECT_EQ(killing, (std::set{Fault::kKillOtherNode, Fault::kKillDisplay, Fault::kKillController}));
 }
 
-TEST(SoakTable, SaysWhichBoundIsBroken) {
+// A table that breaks no bound, though it is at every one of them.
+SoakTable good_table() {
   SoakTable table;
-  EXPECT_TRUE(table.verdict().starts_with("passed"));
-  table.broken = {"3 frames are mixed", "left has grown by 9.0 MiB"};
-  EXPECT_EQ(table.verdict(), "failed: 3 frames are mixed; left has grown by 9.0 MiB");
-  const std::string text = text_of(table);
-  EXPECT_TRUE(text.ends_with(table.verdict() + "\n"));
+  table.shown_frames = 7;
+  table.judged_modules = 56;
+  table.stale_frames = table.late_frames = 3;
+  for (const Fault fault : {Fault::kKillNode, Fault::kStopController, Fault::kKillController, Fault::kStopDisplay})
+    table.outcomes.push_back({fault, kMostRecovery_s, most_pause_s(fault)});
+  table.growths = {{"controller", 20, 20 + kMostGrowth_mib, 30, 30}, {"left", 170, 160, 25, 25}};
+  return table;
+}
+
+std::string last_line(const std::string& text) {
+  EXPECT_THAT(text, EndsWith("\n"));
+  const std::string lines = text.substr(0, text.size() - 1);
+  return lines.substr(lines.rfind('\n') + 1);
+}
+
+// Judged: this bound, and no other; said in the last line and by the exit code.
+void expect_broken(SoakTable table, const std::string& by) {
+  judge(table);
+  EXPECT_THAT(table.broken, ElementsAre(by));
+  EXPECT_EQ(table.exit_code(), 1);
+  EXPECT_EQ(last_line(text_of(table)), "failed: " + by);
+}
+
+TEST(SoakVerdict, PassesWhereNoBoundIsBroken) {
+  SoakTable table = good_table();
+  judge(table);
+  EXPECT_THAT(table.broken, IsEmpty());
+  EXPECT_EQ(table.exit_code(), 0);
+  EXPECT_EQ(last_line(text_of(table)), "passed: 4 faults, 7 frames looked at, none mixed");
+}
+
+TEST(SoakVerdict, FailsWithMixedFrames) {
+  SoakTable table = good_table();
+  table.mixed_frames = 1;
+  expect_broken(table, "1 frames are mixed");
+}
+
+TEST(SoakVerdict, FailsWhereNothingCouldBeLookedAt) {
+  SoakTable table = good_table();
+  table.judged_modules = 0;
+  expect_broken(table, "no frame could be looked at");
+}
+
+TEST(SoakVerdict, FailsWithMemoryThatGrows) {
+  SoakTable table = good_table();
+  table.growths[0].mib_now += 0.1;
+  expect_broken(table, "controller has grown by 8.1 MiB");
+}
+
+TEST(SoakVerdict, FailsWithOtherNumbersOfDescriptors) {
+  SoakTable more = good_table();
+  more.growths[1].descriptors_now = 26;
+  expect_broken(more, "left has 26 descriptors open, 25 before");
+  SoakTable fewer = good_table();
+  fewer.growths[1].descriptors_now = 24;
+  expect_broken(fewer, "left has 24 descriptors open, 25 before");
+}
+
+TEST(SoakVerdict, FailsWhereNothingWasMeasured) {
+  SoakTable table = good_table();
+  table.growths.clear();
+  expect_broken(table, "memory and descriptors were not measured");
+}
+
+TEST(SoakVerdict, FailsWithASlowRecovery) {
+  SoakTable table = good_table();
+  table.outcomes[0].recovery_s = 20.1;
+  expect_broken(table, "node killed: whole again after 20.1 s only");
+}
+
+TEST(SoakVerdict, FailsWithAPauseLongerThanItsFaultMayMake) {
+  SoakTable table = good_table();
+  table.outcomes[0].pause_s = 0.58;
+  expect_broken(table, "node killed: no frame for 0.58 s, 0.55 s are allowed");
+  for (std::size_t i = 1; i < 4; ++i) {
+    SoakTable of_others = good_table();
+    of_others.outcomes[i].pause_s += 0.01;
+    judge(of_others);
+    EXPECT_EQ(of_others.broken.size(), 1U) << name_of(of_others.outcomes[i].fault);
+  }
+}
+
+TEST(SoakVerdict, IsOneLineOfAllThatWentWrong) {
+  SoakTable table;
+  table.broken = {"left has ended (signal 11): last\nwords"};
+  judge(table);
+  EXPECT_EQ(table.exit_code(), 1);
+  EXPECT_EQ(last_line(text_of(table)),
+            "failed: left has ended (signal 11): last words; no frame could be looked at; memory and descriptors were "
+            "not measured");
 }
 
 }  // namespace
