@@ -61,7 +61,7 @@ class Run {
   // Shorter or longer than the 0.6 s after which a peer is out.
   Status stop_for_a_while(const char* name) {
     cluster_.daemons().at(name).signal(SIGSTOP);
-    const Status looked = cluster_.look_for(seconds(choice_.between(0.1, 1.2)));
+    Status looked = cluster_.look_for(seconds(choice_.between(0.1, 1.2)));
     cluster_.daemons().at(name).signal(SIGCONT);
     return looked;
   }

@@ -10,7 +10,7 @@
 namespace lfd::bench {
 namespace {
 
-constexpr int kLevels = 7;
+constexpr std::uint64_t kLevels = 7;
 constexpr int kTolerance = 3;  // of 255: two roundings; two colours differ by more than 30 in a channel
 
 // Levels are apart in sRGB, where they are compared.
