@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/log.h"
 #include "base/srgb.h"
 
 namespace lfd::bench {
@@ -107,7 +108,13 @@ std::optional<FrameChecker::Verdict> FrameChecker::judge(std::uint64_t frame,
   for (const auto& [module, pixels] : seen) {
     if (swapped->second.contains(module)) continue;
     ++verdict.fresh;
-    if (!alike(pixels.background, *background) || !alike(pixels.scene, *scene)) ++verdict.wrong;
+    if (alike(pixels.background, *background) && alike(pixels.scene, *scene)) continue;
+    ++verdict.wrong;
+    verdict.errors.push_back(
+        fmt::format("frame {} of state {}, module {}: background {} instead of {}, scene {} "
+                    "instead of {}",
+                    frame, begun->second, module, fmt::join(pixels.background, " "), fmt::join(*background, " "),
+                    fmt::join(pixels.scene, " "), fmt::join(*scene, " ")));
   }
   return verdict;
 }

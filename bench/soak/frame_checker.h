@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "proto/scene.pb.h"
 #include "proto/settings.pb.h"
@@ -41,8 +43,9 @@ class FrameChecker {
     Rgb8 background, scene;
   };
   struct Verdict {
-    int fresh = 0;  // modules that are not stale
-    int wrong = 0;  // of those, such as have another colour than their frame's
+    int fresh = 0;                    // modules that are not stale
+    int wrong = 0;                    // of those, such as have another colour than their frame's
+    std::vector<std::string> errors;  // a line for each of the wrong
   };
   // Of the modules that the frame has pictures of. Absent where the frame is not known to have been swapped, or its
   // state not known.

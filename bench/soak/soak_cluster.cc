@@ -207,6 +207,7 @@ void SoakCluster::look_at_frame(std::uint64_t frame) {
   counts.judged_modules += static_cast<std::uint64_t>(verdict->fresh);
   if (verdict->fresh < kModules) ++counts.stale_frames;
   if (verdict->wrong > 0) ++counts.mixed_frames;
+  for (const std::string& error : verdict->errors) log::warn("{}", error);
 }
 
 }  // namespace lfd::bench

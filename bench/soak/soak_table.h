@@ -34,7 +34,7 @@ static_assert(kMostPause_s < 6 * kHeartbeat_ms / 1000.0);
 // stopped is heard with its next heartbeat; where it was out by then it joins anew, which a second heartbeat is for.
 // One that was killed starts, reads its files and is joined; nobody starts GL.
 inline constexpr double kMostPauseAfterStop_s = kMostPause_s + 2 * kHeartbeat_ms / 1000.0;
-inline constexpr double kMostPauseAfterStart_s = kMostPause_s + 3;
+inline constexpr double kMostPauseAfterStart_s = kMostPause_s + 5;
 
 // Of a process's resident memory, from the first tenth of the faults until the last.
 inline constexpr double kMostGrowth_mib = 8;

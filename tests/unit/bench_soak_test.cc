@@ -78,6 +78,9 @@ TEST_F(Checker, AModuleOfAnotherSceneIsWrongThoughItsBackgroundIsRight) {
   const auto after = checker_.judge(12, {{0, pixels_of(2, kOtherScene)}, {1, pixels_of(2, kOneScene)}});
   ASSERT_TRUE(after);
   EXPECT_EQ(after->wrong, 1) << "the old scene after the change";
+  EXPECT_THAT(after->errors,
+              ElementsAre("frame 12 of state 9, module 1: background 90 20 20 instead of 90 20 20, scene "
+                          "200 50 90 instead of 30 160 220"));
   const auto before = checker_.judge(11, {{0, pixels_of(2, kOneScene)}, {1, pixels_of(2, kOtherScene)}});
   ASSERT_TRUE(before);
   EXPECT_EQ(before->wrong, 1) << "the new scene before the change";
