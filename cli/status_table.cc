@@ -141,7 +141,7 @@ std::string status_table(const proto::Status& status) {
                          peer.state(), peer.process(), peer.state_hash(),
                          module_ranges(std::vector<int>(peer.module().begin(), peer.module().end())));
   }
-  table += "\n" + figures_of_peers(status);
+  table += fmt::format("\n{}", figures_of_peers(status));
   return table;
 }
 

@@ -2,12 +2,17 @@
 #pragma once
 
 #include "proto/scene_data.h"
-#include "proto/wire/socket.h"
+#include "proto/wire.pb.h"
+#include "proto/wire/payload.h"
 
 namespace lfd::controller {
 
-// One request and its answer: a Chunk with the piece as payload (shorter at the asset's end), NotFound for an asset
-// that the scene does not have, nothing for what is no Want. Errors: whoever asked does not read.
-Status serve_asset(wire::Socket& bulk, const wire::Message& message, const Assets& assets);
+struct AssetAnswer {
+  proto::Envelope envelope;  // Chunk, or NotFound
+  wire::Payload piece;       // of a Chunk
+};
+
+// The piece, shorter at the asset's end; NotFound for an asset that the scene does not have.
+AssetAnswer answer_want(const proto::Want& want, const Assets& assets);
 
 }  // namespace lfd::controller

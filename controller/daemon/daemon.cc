@@ -160,8 +160,10 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
 }
 
 void Daemon::take_want(const wire::Message& message, Clock::time_point now) {
-  if (!stage_.has_scene()) return;
-  const Status served = serve_asset(links_.bulk, message, *assets_for(message.envelope.want().hash()));
+  if (!stage_.has_scene() || !message.envelope.has_want()) return;
+  const proto::Want& want = message.envelope.want();
+  const AssetAnswer answer = answer_want(want, *assets_for(want.hash()));
+  const Status served = links_.bulk.send_to(message.peer, answer.envelope, answer.piece);
   if (!served && unread_pieces_.due(now)) log::warn("bulk: {}", served.error().message());
 }
 

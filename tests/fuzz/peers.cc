@@ -81,6 +81,7 @@ void Peers::take(const std::string& sender, const proto::Envelope& envelope, std
   to_controller(sender, envelope);
   to_node(envelope, payload);
   to_display(sender, envelope, payload);
+  bystanders_.take(sender, envelope, now_);
   tick();
 }
 
@@ -185,7 +186,7 @@ void Peers::to_node(const proto::Envelope& envelope, std::string_view payload) {
     LFD_CHECK(want.length() == kPiece_bytes && want.offset() < AssetGatherer::kMaxAsset_bytes, "pieces are asked for");
 }
 
-// As display/daemon.cc does.
+// As display/display_images.cc does.
 void Peers::to_display(const std::string& sender, const proto::Envelope& envelope, std::string_view payload) {
   if (envelope.has_image()) {
     const auto bytes = std::make_shared<const std::string>(payload);

@@ -15,6 +15,7 @@
 #include "display/frame_assembly.h"
 #include "proto/asset_gatherer.h"
 #include "proto/state_follower.h"
+#include "tests/fuzz/bystanders.h"
 
 namespace lfd::fuzz {
 
@@ -56,6 +57,7 @@ class Peers {
   AssetGatherer gatherer_{kPiece_bytes};
   display::FrameAssembly assembly_;
   std::optional<std::uint64_t> last_shown_;
+  Bystanders bystanders_;
 };
 
 }  // namespace lfd::fuzz
