@@ -29,6 +29,8 @@ void give_own_color(proto::Scene& scene, const Rgb8& color);
 // Told what is published, in its order.
 class FrameChecker {
  public:
+  static constexpr std::size_t kRemembered = 4096;  // frames and states
+
   // Another controller, or the first: nothing is known.
   void restarted();
   // The state of this sequence has this background; from now on, until the next one.
@@ -54,8 +56,6 @@ class FrameChecker {
   std::optional<std::uint64_t> last_swapped() const { return last_swapped_; }
 
  private:
-  static constexpr std::size_t kRemembered = 4096;  // frames and states
-
   std::map<std::uint64_t, std::optional<Rgb8>> background_, scene_;  // by sequence
   std::map<std::uint64_t, std::uint64_t> sequence_;
   std::map<std::uint64_t, std::set<std::uint32_t>> stale_;

@@ -66,8 +66,8 @@ std::string text_of(const SoakTable& table) {
                     growth.mib_now, growth.mib_now - growth.mib_then, growth.descriptors_then, growth.descriptors_now);
   }
   text += fmt::format(
-      "then: after the first tenth of the faults; now: after the last. Faults kill these processes in the first "
-      "twentieth alone.\nAt most {:.0f} MiB more, and as many descriptors.\n",
+      "then: after the first tenth of the faults; now: after the last; both of the first scene, shown after the other. "
+      "Faults kill\nthese processes in the first twentieth alone. At most {:.0f} MiB more, and as many descriptors.\n",
       kMostGrowth_mib);
   return text + "\n" + table.verdict() + "\n";
 }

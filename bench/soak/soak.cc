@@ -87,9 +87,22 @@ class Soak {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
   }
 
-  // After a while without a fault, so that nothing is under way that comes and goes; the least of several looks, as the
-  // display opens files for every frame.
+  // The other scene, and then the first: a node holds what it draws, and the two do not take the same memory.
+  Status show_both_scenes() {
+    for (const bool other : {true, false}) {
+      if (cluster_.shows_other_scene() == other) continue;
+      LFD_TRY_STATUS(cluster_.change_scene());
+      LFD_TRY(const bool whole,
+              cluster_.look_until([this] { return cluster_.is_whole(); }, 2 * seconds(kMostRecovery_s)));
+      if (!whole) return not_whole("a scene could not be changed");
+    }
+    return {};
+  }
+
+  // Of the first scene, and after a while without a fault, so that nothing is under way that comes and goes; the least
+  // of several looks, as the display opens files for every frame.
   Result<std::map<std::string, ProcessFacts>> facts() {
+    LFD_TRY_STATUS(show_both_scenes());
     LFD_TRY_STATUS(cluster_.look_for(1s));
     std::map<std::string, ProcessFacts> all;
     for (int look = 0; look < kLooks; ++look) {

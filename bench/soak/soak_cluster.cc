@@ -32,6 +32,7 @@ constexpr auto kChangePause = 150ms, kRest = 400ms, kLookPause = 100ms, kTick = 
 constexpr int kChangesBetweenRests = 4;
 constexpr auto kAnswerPatience = 300ms;  // the controller may be stopped
 constexpr auto kScenePatience = 30s;
+constexpr auto kFileClock = 20ms;           // files are stamped by ticks of the kernel, 1 to 10 ms apart
 constexpr std::uint64_t kFramesInHand = 4;  // of a display's writers, and one more
 
 }  // namespace
@@ -142,6 +143,7 @@ std::vector<std::string> SoakCluster::dead() const {
 void SoakCluster::hear() {
   const auto on_session = [this] {
     checker_.restarted();
+    begun_at_.clear();
     checker_.scene(0, first_scene_);
     other_scene_ = false;
     late_before_ += late_now_;
@@ -152,7 +154,12 @@ void SoakCluster::hear() {
       checker_.scene(envelope.update().sequence(), envelope.update().scene());
     if (envelope.has_update() && envelope.update().has_render())
       checker_.background(envelope.update().sequence(), envelope.update().render().background());
-    if (envelope.has_begin()) checker_.begun(envelope.begin().frame(), envelope.begin().sequence());
+    if (envelope.has_begin()) {
+      checker_.begun(envelope.begin().frame(), envelope.begin().sequence());
+      const auto ago = std::chrono::duration_cast<fs::file_time_type::duration>(Clock::now() - at);
+      begun_at_[envelope.begin().frame()] = fs::file_time_type::clock::now() - ago;
+      if (begun_at_.size() > FrameChecker::kRemembered) begun_at_.erase(begun_at_.begin());
+    }
     if (!envelope.has_swap()) return;
     const auto& stale = envelope.swap().stale_modules();
     checker_.swapped(envelope.swap().frame(), {stale.begin(), stale.end()});
@@ -189,11 +196,20 @@ void SoakCluster::look_at_frames() {
   }
 }
 
+// Written after the frame began. A frame that the display dropped may have pictures of the same number left from before
+// the controller was killed.
+bool SoakCluster::is_of_this_life(const fs::path& picture, std::uint64_t frame) const {
+  std::error_code failure;
+  const auto written = fs::last_write_time(picture, failure);
+  const auto begun = begun_at_.find(frame);
+  return !failure && begun != begun_at_.end() && written >= begun->second - kFileClock;
+}
+
 void SoakCluster::look_at_frame(std::uint64_t frame) {
   std::map<std::uint32_t, FrameChecker::Pixels> seen;
   for (std::uint32_t module = 0; module < kModules; ++module) {
     const auto path = image_path(daemons_->shown(), frame, module, proto::COLOR);
-    if (!fs::exists(path)) continue;
+    if (!is_of_this_life(path, frame)) continue;
     const auto picture = read_png(path);
     if (!picture || picture->rgba.size() <= kMiddle + 2) continue;
     const auto pixel = [&picture](std::size_t at) {

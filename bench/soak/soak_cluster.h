@@ -1,7 +1,9 @@
 // The cluster of a soak: its processes, its controller's answers, what it shows; kept going by look().
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +34,7 @@ class SoakCluster {
 
   // Asks for the other one of two scenes.
   Status change_scene();
+  bool shows_other_scene() const { return other_scene_; }
 
   // All draw the controller's state and frames are shown.
   bool is_whole();
@@ -55,6 +58,7 @@ class SoakCluster {
   void change_state();
   void look_at_frames();
   void look_at_frame(std::uint64_t frame);
+  bool is_of_this_life(const std::filesystem::path& picture, std::uint64_t frame) const;
 
   StopSignals& signals_;
   TemporaryFolder folder_{"lfd-soak"};
@@ -63,6 +67,8 @@ class SoakCluster {
   std::unique_ptr<ControlClient> client_;
   std::unique_ptr<Listener> listener_;
   FrameChecker checker_;
+  // When each frame of this life of the controller began: another life may have had one of the same number.
+  std::map<std::uint64_t, std::filesystem::file_time_type> begun_at_;
   bool other_scene_ = false;
   std::uint64_t changes_ = 0, painted_ = 0, late_before_ = 0, late_now_ = 0;
   PauseWatch pauses_;
