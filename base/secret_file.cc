@@ -23,10 +23,17 @@ bool write_all(int descriptor, std::string_view content) {
   return true;
 }
 
-Status check_owner(const std::filesystem::path& path, ::uid_t owner) {
-  if (owner == ::geteuid() || owner == 0) return {};
-  return Error(
-      fmt::format("{}: belongs to user {}, neither to this one ({}) nor to root", path.string(), owner, ::geteuid()));
+// Refuses a file with any of these bits of its mode, and one that belongs to somebody else. `what`: what is wrong with
+// such a mode; `remedy`: what mends it.
+Status check_file(const std::filesystem::path& path, ::mode_t refused, const char* what, const char* remedy) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0)
+    return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  if ((info.st_mode & refused) != 0)
+    return Error(fmt::format("{}: {} (mode {:04o}); {}", path.string(), what, info.st_mode & 07777, remedy));
+  if (info.st_uid == ::geteuid() || info.st_uid == 0) return {};
+  return Error(fmt::format("{}: belongs to user {}, neither to this one ({}) nor to root", path.string(), info.st_uid,
+                           ::geteuid()));
 }
 
 }  // namespace
@@ -43,25 +50,11 @@ Status create_secret_file(const std::filesystem::path& path, std::string_view co
 }
 
 Status check_secret_file(const std::filesystem::path& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0)
-    return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-  if ((info.st_mode & 077) != 0) {
-    return Error(fmt::format("{}: is open to others (mode {:04o}); a secret key is its owner's alone: chmod 600",
-                             path.string(), info.st_mode & 07777));
-  }
-  return check_owner(path, info.st_uid);
+  return check_file(path, 077, "is open to others", "a secret key is its owner's alone: chmod 600");
 }
 
 Status check_trusted_file(const std::filesystem::path& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0)
-    return Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-  if ((info.st_mode & 022) != 0) {
-    return Error(fmt::format("{}: others may write to it (mode {:04o}), and let in whom they like: chmod go-w",
-                             path.string(), info.st_mode & 07777));
-  }
-  return check_owner(path, info.st_uid);
+  return check_file(path, 022, "others may write to it", "they could let in whom they like: chmod go-w");
 }
 
 }  // namespace lfd
