@@ -87,7 +87,7 @@ TEST_F(NodeInstants, AStopShorterThanTheLimitCostsStaleFramesOnly) {
 }
 
 TEST_F(NodeInstants, FramesSwapAtTheDeadlineWithoutASlowNode) {
-  run_with({});
+  const auto before = run_with({});
   ASSERT_TRUE(stage_.is_whole());
   stage_.start("right", {{"LFD_SLOWDOWN", "1000"}});
   ASSERT_TRUE(becomes(stage_.endpoint(), [](const proto::Status& status) {
@@ -95,8 +95,12 @@ TEST_F(NodeInstants, FramesSwapAtTheDeadlineWithoutASlowNode) {
   }));
   const std::uint64_t frame = stage_.last_frame();
   EXPECT_TRUE(stage_.shows_frames_after(frame + 3));
+  EXPECT_TRUE(says(stage_["controller"], "\"right\" is late: frame "));
   stage_.start("right");
-  EXPECT_TRUE(stage_.is_whole());
+  ASSERT_TRUE(stage_.is_whole());
+  EXPECT_EQ(stage_.pictures_from(stage_.last_frame()), before);
+  // However many frames it was late in; every start may have an episode of its own.
+  EXPECT_LE(lines_with(stage_["controller"], "\"right\" is late: frame "), 6);
 }
 
 TEST_F(NodeInstants, ALostContextIsMadeAnew) {
