@@ -10,9 +10,9 @@
 
 namespace lfd::fault {
 
-// The instants of a frame in a render node; a display has kShown.
+// The instants of a frame in a render node.
 inline constexpr std::string_view kBegin = "begin", kDrawing = "drawing", kDrawn = "drawn", kReady = "ready",
-                                  kSending = "sending", kShown = "shown";
+                                  kSending = "sending";
 
 struct Plan {
   std::string_view action;

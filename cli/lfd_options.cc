@@ -74,7 +74,8 @@ void add_controller_options(CLI::App& command, ControllerAt& controller) {
   command.add_option(
       "--key", controller.key_file,
       "Key file, beside allow.textproto (default: that of the cluster that `lfd run` runs here, if it has keys)");
-  command.add_flag(kAcceptPlainOption, controller.accept_plain, "Talk to a controller without keys beyond this machine");
+  command.add_flag(kAcceptPlainOption, controller.accept_plain,
+                   "Talk to a controller without keys beyond this machine");
 }
 
 int do_with_cluster(const ClusterOptions& options, const std::function<Status(StopSignals& signals)>& what) {

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/log.h"
 #include "base/signals.h"
@@ -18,10 +19,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kTick = 20ms;
-constexpr auto kScenePause = 200ms;  // between questions whether there is a scene
-constexpr auto kSilence = 10s;       // then the controller is lost
-constexpr auto kAskAgain = 500ms;    // for what did not come
-constexpr auto kLastAssets = 60s;    // for assets, once enough of the show is recorded
+constexpr auto kScenePause = 200ms;                  // between questions whether there is a scene
+constexpr auto kSilenceToTell = 3s, kSilence = 10s;  // of the controller: it is said; it is lost
+constexpr auto kAskAgain = 500ms;                    // for what did not come
+constexpr auto kLastAssets = 60s;                    // for assets, once enough of the show is recorded
 constexpr auto kLastAssetsOfASignal = 1s;
 
 struct Arguments {
@@ -106,16 +107,18 @@ class Session {
   ControlClient client_;
   wire::Socket state_, bulk_;
   RecordingWriter writer_;
-  ShowRecorder recorder_{wire::kChunk_bytes};
+  ShowRecorder recorder_{wire::kChunk_bytes, arguments_.frames};
   std::optional<std::uint64_t> asked_;  // number of the request for a snapshot
   Clock::time_point ask_again_{}, want_again_{}, last_heard_ = Clock::now();
   std::optional<Clock::time_point> begun_;
   std::optional<Enough> enough_;
+  bool misses_controller_ = false;  // which has been said
 };
 
 void Session::hear(Clock::time_point now) {
   while (const auto message = state_.receive()) {
     last_heard_ = now;
+    misses_controller_ = false;
     if (!enough_) recorder_.heard(message->envelope, now);
   }
 }
@@ -176,8 +179,7 @@ void Session::stop_hearing(const std::string& reason, Clock::time_point until) {
 void Session::end_as_wished(StopSignals& signals, Clock::time_point now) {
   const bool long_enough =
       arguments_.seconds && begun_ && now - *begun_ >= std::chrono::duration<double>(*arguments_.seconds);
-  const bool frames_enough = arguments_.frames && recorder_.swapped_frames() >= *arguments_.frames;
-  if (long_enough || frames_enough) stop_hearing("as much as was asked for", now + kLastAssets);
+  if (long_enough || recorder_.has_enough()) stop_hearing("as much as was asked for", now + kLastAssets);
   if (const auto signal = signals.take()) {
     if (enough_) enough_->until = now;
     stop_hearing(fmt::format("signal {}", *signal), now + kLastAssetsOfASignal);
@@ -212,6 +214,9 @@ Status Session::run(StopSignals& signals) {
     } else if (now - last_heard_ > kSilence) {
       end = ShowRecorder::End{.reason = fmt::format("nothing was heard of the controller for {} s", kSilence.count()),
                               .is_fault = true};
+    } else if (now - last_heard_ > kSilenceToTell && !std::exchange(misses_controller_, true)) {
+      log::warn("nothing heard of the controller for {} s; it is waited for until {} s", kSilenceToTell.count(),
+                kSilence.count());
     }
   }
   if (!recorder_.has_begun()) {

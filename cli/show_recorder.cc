@@ -44,6 +44,7 @@ void ShowRecorder::heard(const proto::Envelope& message, Clock::time_point now) 
     end_ = End{.reason = fmt::format("the controller ended: {}", message.quit().reason()), .is_fault = false};
     return;
   }
+  if (message.begin().again() || message.swap().again()) return;
   if (is_of_another_life(message)) {
     end_ = End{.reason = "the controller was started anew, which is another show", .is_fault = true};
     return;
@@ -96,6 +97,7 @@ void ShowRecorder::snapshot_came(const proto::State& state, Clock::time_point no
 }
 
 void ShowRecorder::take(const proto::Envelope& message, Clock::time_point at) {
+  if (has_enough()) return;
   switch (message.body_case()) {
     case proto::Envelope::kUpdate:
       return take_update(message.update(), at);
@@ -141,6 +143,7 @@ void ShowRecorder::take_begin(const proto::BeginFrame& begin, Clock::time_point 
     *again.mutable_begin() = begin;
     return wait_with(again, at);
   }
+  if (most_frames_ && begun_ >= *most_frames_) return;
   if (begin.sequence() != follower_.sequence()) {
     if (snapshots_ > 1) ++left_out_;  // before the first one the recording has not begun
     return;

@@ -23,7 +23,9 @@ class ShowRecorder {
   static constexpr std::size_t kMostWaiting = 4096;
   static constexpr std::size_t kMostWaiting_bytes = std::size_t{256} << 20;
 
-  explicit ShowRecorder(std::uint32_t piece_bytes) : gatherer_(piece_bytes) {}
+  // `most_frames`: with the swap of so many frames the show is over; absent: never.
+  explicit ShowRecorder(std::uint32_t piece_bytes, std::optional<std::uint64_t> most_frames = {})
+      : gatherer_(piece_bytes), most_frames_(most_frames) {}
 
   // What came on the state channel, in its order.
   void heard(const proto::Envelope& message, Clock::time_point now);
@@ -43,6 +45,8 @@ class ShowRecorder {
   };
   std::vector<Asset> take_assets();
 
+  // As many frames as it was to hear: what is said from now on has no effect, assets are still taken.
+  bool has_enough() const { return most_frames_ && swapped_ >= *most_frames_; }
   bool has_begun() const { return started_.has_value(); }  // the first state is there
   std::uint64_t begun_frames() const { return begun_; }
   std::uint64_t swapped_frames() const { return swapped_; }  // of those
@@ -74,6 +78,7 @@ class ShowRecorder {
 
   StateFollower follower_;
   AssetGatherer gatherer_;
+  std::optional<std::uint64_t> most_frames_;
   bool hears_ = false, waits_ = true;
   std::deque<Heard> waiting_;
   std::size_t waiting_bytes_ = 0;

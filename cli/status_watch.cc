@@ -44,7 +44,8 @@ Result<std::optional<proto::Status>> Watch::ask() {
   const auto deadline = Clock::now() + std::max(every_, kLeastPatience);
   const auto may_go_on = [&] { return !is_ended() && Clock::now() < deadline; };
   if (!client_) {
-    auto connected = connect_controller(controller_);  // without an endpoint: where the cluster listens may have changed
+    auto connected =
+        connect_controller(controller_);  // without an endpoint: where the cluster listens may have changed
     if (!connected) return std::optional<proto::Status>();
     client_ = *std::move(connected);
   }

@@ -59,6 +59,10 @@ void ClusterStats::shown(const std::string& display, std::uint64_t frame, Clock:
   begin_to_shown_.observe_ms(*after_ms);
 }
 
+void ClusterStats::keep_only(const std::set<std::string>& peers) {
+  std::erase_if(peers_, [&](const auto& entry) { return !peers.contains(entry.first); });
+}
+
 void ClusterStats::fault(const std::string& peer, const std::string& why) {
   ++faults_;
   const std::string_view what = std::string_view(why).substr(0, kMostOfAFault);

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ class ClusterStats {
 
   // This process belongs to the cluster. What is told of one that was never told to belong concerns only the whole.
   void joined(const std::string& peer) { peers_[peer]; }
+  // The others are forgotten: names of displays come and go.
+  void keep_only(const std::set<std::string>& peers);
   // What was warned of. `peer`: whose fault; empty: of no single one.
   void fault(const std::string& peer, const std::string& what);
 

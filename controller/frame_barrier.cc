@@ -75,4 +75,13 @@ std::optional<Clock::time_point> FrameBarrier::next_deadline() const {
   return frames_.front().begun + deadline_;
 }
 
+std::vector<FrameBarrier::Waiting> FrameBarrier::waiting_since(Clock::time_point then) const {
+  std::vector<Waiting> all;
+  for (const Frame& frame : frames_) {
+    if (frame.begun <= then && !frame.waiting.empty())
+      all.push_back({frame.number, {frame.waiting.begin(), frame.waiting.end()}});
+  }
+  return all;
+}
+
 }  // namespace lfd::controller

@@ -53,6 +53,13 @@ class FrameBarrier {
   // When swap() is to be asked again though nothing happens.
   std::optional<Clock::time_point> next_deadline() const;
 
+  struct Waiting {
+    std::uint64_t frame = 0;
+    std::vector<std::string> nodes;  // that have not said ready
+  };
+  // Of the open frames that began then or earlier: whom they wait for. The oldest first.
+  std::vector<Waiting> waiting_since(Clock::time_point then) const;
+
   std::size_t in_flight() const { return frames_.size(); }
   std::uint64_t next_frame() const { return next_; }
 

@@ -46,10 +46,17 @@ void FrameLog::nobody_wants_them() {
   forget_oldest();
 }
 
-FrameLog::Entry* FrameLog::find(std::uint64_t frame) {
+const FrameLog::Entry* FrameLog::find(std::uint64_t frame) const {
   const auto found =
       std::ranges::lower_bound(entries_, frame, {}, [](const Entry& entry) { return entry.report.frame(); });
   return found != entries_.end() && found->report.frame() == frame ? &*found : nullptr;
+}
+
+FrameLog::Entry* FrameLog::find(std::uint64_t frame) { return const_cast<Entry*>(std::as_const(*this).find(frame)); }
+
+const std::string* FrameLog::state_hash(std::uint64_t frame) const {
+  const Entry* entry = find(frame);
+  return entry == nullptr ? nullptr : &entry->report.state_hash();
 }
 
 void FrameLog::reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report) {
@@ -81,11 +88,13 @@ void FrameLog::swapped(const FrameBarrier::Swap& swap, const std::vector<std::ui
   for (const std::uint32_t module : stale_modules) entry->report.add_stale_module(module);
 }
 
-void FrameLog::shown(std::uint64_t frame, Clock::time_point now) {
+bool FrameLog::shown(std::uint64_t frame, Clock::time_point now) {
   Entry* entry = find(frame);
-  if (entry == nullptr) return;
+  if (entry == nullptr) return true;
+  if (entry->shown) return false;
   entry->shown = true;
   entry->report.set_begin_to_shown_ms(milliseconds(now - entry->begun));
+  return true;
 }
 
 bool FrameLog::all_shown(std::uint64_t first, std::uint64_t count) const {

@@ -20,14 +20,17 @@ class FrameLog {
   // The frame begins with this region of interest and state.
   void begun(std::uint64_t frame, const RegionOfInterest& roi, const std::string& state_hash, Clock::time_point now);
 
+  // Of the state that the frame shows; null where the frame is forgotten.
+  const std::string* state_hash(std::uint64_t frame) const;
+
   // A node's report of a frame; its first one counts. Reports of frames that are forgotten have no effect, and the
   // oldest are forgotten where all of them together are larger than kMostReport_bytes.
   void reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report);
 
   void swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules, Clock::time_point now);
 
-  // The display or output has the complete frame.
-  void shown(std::uint64_t frame, Clock::time_point now);
+  // The display or output has the complete frame. False where that was known.
+  bool shown(std::uint64_t frame, Clock::time_point now);
 
   std::optional<std::uint64_t> last_swapped() const { return last_swapped_; }
   // Whether each of the frames first .. first + count - 1 has been shown.
@@ -58,6 +61,7 @@ class FrameLog {
     std::size_t report_bytes = 0;  // of the nodes
   };
   Entry* find(std::uint64_t frame);
+  const Entry* find(std::uint64_t frame) const;
 
   void forget_oldest();
 

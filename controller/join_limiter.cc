@@ -27,6 +27,18 @@ bool JoinLimiter::admits(const std::string& address, Clock::time_point now) {
   return true;
 }
 
+bool JoinLimiter::tells(const std::string& peer, Clock::time_point now) {
+  const auto is_past = [&](const auto& entry) { return now - entry.second >= kTellPause; };
+  const auto known = told_.find(peer);
+  if (known != told_.end() && !is_past(*known)) return false;
+  all_told_ = all_told_.refilled(now, kPerSecondOfTold, kBurstOfTold);
+  if (all_told_.tokens < 1) return false;
+  all_told_.tokens -= 1;
+  std::erase_if(told_, is_past);
+  told_[peer] = now;
+  return true;
+}
+
 bool JoinLimiter::warns(Clock::time_point now) {
   if (passed_over_ == warned_of_ || !pause_.due(now)) return false;
   warned_of_ = passed_over_;

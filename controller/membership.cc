@@ -34,7 +34,7 @@ Membership::Membership(Rules rules) : rules_(std::move(rules)) {
 }
 
 Result<std::optional<std::string>> Membership::join(const proto::Join& join, const std::string& address,
-                                                    Clock::time_point now) {
+                                                    Clock::time_point now, const std::string& user) {
   LFD_TRY_STATUS(check(join));
   LFD_TRY(const bool may_come, may_take_name(join, address, now));
   if (!may_come) return std::optional<std::string>();
@@ -46,6 +46,7 @@ Result<std::optional<std::string>> Membership::join(const proto::Join& join, con
               .address = address,
               .state_hash = {},
               .images_endpoint = join.images_endpoint(),
+              .user = user,
               .process = join.process(),
               .last_heard = std::nullopt,
               .last_word = now,
@@ -61,8 +62,11 @@ Status Membership::check(const proto::Join& join) const {
   if (join.version() != rules_.version) {
     return Error(fmt::format("version {} does not fit the controller's {}", join.version(), rules_.version));
   }
-  if (!join.calibration_hash().empty() && join.calibration_hash() != rules_.calibration_hash) {
-    return Error(fmt::format("display calibration {} is not the controller's {}", join.calibration_hash(),
+  // A display may be started without a deployment, and then has no calibration that could be another.
+  const bool takes_ours = join.role() == proto::DISPLAY && join.calibration_hash().empty();
+  if (!takes_ours && join.calibration_hash() != rules_.calibration_hash) {
+    return Error(fmt::format("display calibration {} is not the controller's {}",
+                             join.calibration_hash().empty() ? "(none)" : join.calibration_hash(),
                              rules_.calibration_hash));
   }
   const bool is_node = std::ranges::find(rules_.nodes, join.name()) != rules_.nodes.end();
@@ -168,6 +172,13 @@ const Peer* Membership::find(const std::string& name) const {
 const Peer* Membership::at(const std::string& address) const {
   for (const auto& [name, peer] : peers_) {
     if (peer.lives() && peer.address == address) return &peer;
+  }
+  return nullptr;
+}
+
+const Peer* Membership::other_at(const std::string& address, const std::string& user) const {
+  for (const auto& [name, peer] : peers_) {
+    if (!address.empty() && peer.address == address && peer.user != user) return &peer;
   }
   return nullptr;
 }

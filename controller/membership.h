@@ -30,6 +30,7 @@ struct Peer {
   std::string address;  // of the control channel; empty where it is absent or has left
   std::string state_hash;
   std::string images_endpoint;  // of a display
+  std::string user;             // whose key it joined with; empty: without keys
   std::uint64_t process = 0;
   std::optional<Clock::time_point> last_heard;  // absent until it has been welcomed
   Clock::time_point last_word;                  // likewise, but from its join on
@@ -49,7 +50,7 @@ class Membership {
  public:
   struct Rules {
     std::string version;           // peers of another are refused
-    std::string calibration_hash;  // peers started with another are refused
+    std::string calibration_hash;  // peers started with another are refused, and nodes that name none
     std::vector<std::string> nodes;
     Clock::duration patience;   // a peer silent for longer is out
     Clock::duration heartbeat;  // how often a peer that lives is heard
@@ -61,10 +62,15 @@ class Membership {
   // is the same process from a new address (it reconnected), and whoever comes under the name of one that has not been
   // welcomed yet. Another process under the name of a living peer is not answered (absent) and asks again: it takes the
   // place once nothing has been heard of the other for kHeartbeatsOfDoubt, as after a crash and a quick restart, and is
-  // refused once something has.
-  Result<std::optional<std::string>> join(const proto::Join& join, const std::string& address, Clock::time_point now);
+  // refused once something has. `user`: whose key it came with.
+  Result<std::optional<std::string>> join(const proto::Join& join, const std::string& address, Clock::time_point now,
+                                          const std::string& user = {});
   static constexpr int kHeartbeatsOfDoubt = 2;
   static constexpr int kGoneDisplays = 8;  // that are remembered: any number of names may come and go
+
+  // Whose address it is, where it is not this user's: an address is what a peer calls itself, and free for others once
+  // its connection is gone. The peer that joined from there may be out by now.
+  const Peer* other_at(const std::string& address, const std::string& user) const;
 
   // The peer has been sent its Welcome: from now on it has to be heard.
   void welcomed(const std::string& name, Clock::time_point now);

@@ -18,7 +18,7 @@ void RateWindow::happened(Clock::time_point now) {
 double RateWindow::per_second(Clock::time_point now) const {
   const auto first = std::ranges::find_if(times_, [&](Clock::time_point time) { return now - time <= kWindow; });
   const auto count = std::distance(first, times_.end());
-  if (count < 2) return 0;
+  if (count < 2 || times_.back() == *first) return 0;
   return static_cast<double>(count - 1) / std::chrono::duration<double>(times_.back() - *first).count();
 }
 

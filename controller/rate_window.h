@@ -11,7 +11,7 @@ class RateWindow {
  public:
   void happened(Clock::time_point now);
 
-  // Per second, of what happened in the last seconds; 0 where that was less than twice.
+  // Per second, of what happened in the last seconds; 0 where that was at fewer than two times.
   double per_second(Clock::time_point now) const;
 
  private:

@@ -10,6 +10,7 @@
 #include "base/metric_server.h"
 #include "base/result.h"
 #include "calibration/spaces/pixel.h"
+#include "proto/wire/socket.h"
 
 namespace lfd::display {
 
@@ -24,6 +25,10 @@ struct DaemonOptions {
   std::set<std::string> nodes;               // that may send images; empty: any
   std::optional<ImageSize> image;            // of a module, where it is known beforehand: nothing larger is taken in
 };
+
+// Of the socket that takes images of modules of this size, where it is known: nothing larger is taken in, and of what
+// nobody has looked at no more than 256 MiB, or 16 images, of each connection. Credits keep nodes far below that.
+wire::Limits image_limits(const std::optional<ImageSize>& image);
 
 // Runs until SIGTERM, SIGINT or the controller's Quit (success), a refusal by the controller, or an endpoint that
 // cannot be used. A controller that is away is waited for. Call it before any thread starts: it blocks those two

@@ -6,6 +6,7 @@ namespace lfd::display {
 namespace {
 
 constexpr auto kWarningPause = std::chrono::seconds(5);
+constexpr std::size_t kLastShown = 256;  // more than are shown between two swaps that are said again
 
 proto::Envelope empty_credit() {
   proto::Envelope envelope;
@@ -20,6 +21,10 @@ void DisplayLoop::hear_images() {
   for (int i = 0; i < kImagesPerPass; ++i) {
     auto message = images_.receive();
     if (!message) break;
+    if (senders_.is_borrowed(message->peer, message->user)) {
+      warn_of_image(Error(fmt::format("the key of \"{}\" speaks for no other node", message->user)));
+      continue;
+    }
     senders_.heard(message->peer, now);
     if (message->envelope.has_hello()) hear_hello(*message, now);
     if (message->envelope.has_image()) hear_image(std::move(*message));
@@ -65,6 +70,8 @@ void DisplayLoop::show() {
   while (!writer_ || writer_->accepts()) {
     auto frame = assembly_.next_frame(Clock::now());
     if (!frame) break;
+    last_shown_[frame->frame].reset();
+    if (last_shown_.size() > kLastShown) last_shown_.erase(last_shown_.begin());
     if (writer_) {
       writer_->write(std::move(*frame));
     } else {
@@ -75,6 +82,7 @@ void DisplayLoop::show() {
 
 void DisplayLoop::say_shown(std::uint64_t frame, int fresh_modules) {
   stats_.shown(fresh_modules, Clock::now());
+  if (const auto last = last_shown_.find(frame); last != last_shown_.end()) last->second = fresh_modules;
   proto::Envelope shown;
   shown.set_session(session_);
   shown.mutable_shown()->set_frame(frame);
@@ -82,6 +90,17 @@ void DisplayLoop::say_shown(std::uint64_t frame, int fresh_modules) {
   const Status sent = control_.send(shown);
   if (!sent && told_shown_) log::warn("frame {} is shown, but: {}", frame, sent.error().message());
   told_shown_ = static_cast<bool>(sent);
+}
+
+void DisplayLoop::say_fate_again(std::uint64_t frame) {
+  const auto last = last_shown_.find(frame);
+  if (last != last_shown_.end() && !last->second) return;  // it is being written
+  proto::Envelope words;
+  words.set_session(session_);
+  words.mutable_shown()->set_frame(frame);
+  words.mutable_shown()->set_dropped(last == last_shown_.end());
+  if (last != last_shown_.end()) words.mutable_shown()->set_modules(static_cast<std::uint32_t>(*last->second));
+  if (const Status sent = control_.send(words); !sent) log::trace("{}", sent.error().message());
 }
 
 void DisplayLoop::give_credits() {

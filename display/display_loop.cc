@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
+#include "proto/try_again.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::display {
@@ -97,17 +98,28 @@ Status DisplayLoop::hear_control() {
   while (const auto message = control_.receive()) {
     last_heard_ = Clock::now();
     const auto& envelope = message->envelope;
-    if (envelope.has_refused() && !welcome_) {
-      return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
-    }
-    if (envelope.has_refused()) {
-      log::warn("the controller knows this display no longer ({}); joining again", envelope.refused().reason());
-      welcome_ = false;
-      next_words_ = Clock::now();
-    }
+    if (envelope.has_refused()) LFD_TRY_STATUS(take_refusal(envelope.refused()));
     if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope));
     if (envelope.has_quit()) ended_ = true;
   }
+  return {};
+}
+
+Status DisplayLoop::take_refusal(const proto::Refused& refused) {
+  // Of every heartbeat that a new controller has heard: the join that the first brings about stands.
+  if (refused.not_a_member() && !welcome_) return {};
+  if (const auto pause = try_again_after(refused)) {
+    if (welcome_) return {};  // of a join before the one that let it in
+    if (!waits_to_join_)
+      log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(*pause));
+    waits_to_join_ = true;
+    next_words_ = Clock::now() + *pause;
+    return {};
+  }
+  if (!welcome_) return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
+  log::warn("the controller knows this display no longer ({}); joining again", refused.reason());
+  welcome_ = false;
+  next_words_ = Clock::now();
   return {};
 }
 
@@ -122,9 +134,11 @@ Status DisplayLoop::welcome(const proto::Envelope& envelope) {
   session_ = envelope.session();
   const std::size_t waiting_bytes = std::size_t{message.stream().waiting_mib()} << 20;
   peers_.restart(Clock::now());
+  last_shown_.clear();
   assembly_.configure(static_cast<int>(display->modules.size()), display->image, span_of(message.modules()),
                       waiting_bytes > 0 ? waiting_bytes : FrameAssembly::kWaitingPerNode_bytes);
   welcome_ = true;
+  waits_to_join_ = false;
   stats_.joined(display->modules.size());
   service_.ready();
   next_words_ = Clock::now();
@@ -152,6 +166,7 @@ void DisplayLoop::hear_state() {
 }
 
 void DisplayLoop::hear_swap(const proto::SwapFrame& swap) {
+  if (assembly_.is_past(swap.frame())) return say_fate_again(swap.frame());
   FrameAssembly::Owners owners;
   for (const proto::Share& share : swap.share()) {
     for (const std::uint32_t module : share.module()) owners[module] = share.node();

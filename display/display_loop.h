@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -41,6 +42,7 @@ class DisplayLoop {
   void wait_for_something(StopSignals& signals);
   void join_or_beat(Clock::time_point now);
   Status hear_control();
+  Status take_refusal(const proto::Refused& refused);
   Status welcome(const proto::Envelope& envelope);
   void hear_state();
   bool is_of_another_session(const proto::Envelope& envelope) const;
@@ -54,6 +56,7 @@ class DisplayLoop {
   void forget(const std::string& peer, const std::string& why);
   void show();
   void say_shown(std::uint64_t frame, int fresh_modules);
+  void say_fate_again(std::uint64_t frame);  // of a past frame: what was said may have been lost
   void give_credits();
   void warn_of_image(const Error& error);
 
@@ -67,7 +70,10 @@ class DisplayLoop {
   ImagePeers peers_{assembly_};
   std::uint64_t session_ = 0;  // of the controller that welcomed this display
   bool welcome_ = false, ended_ = false;
-  bool told_shown_ = true;  // the controller could be told of the last frame
+  // The fresh modules of the last frames that were shown, once that was said: a frame is written first.
+  std::map<std::uint64_t, std::optional<int>> last_shown_;
+  bool waits_to_join_ = false;  // it was told to try again, and has said so
+  bool told_shown_ = true;      // the controller could be told of the last frame
   Clock::duration heartbeat_ = std::chrono::milliseconds(500);
   Clock::time_point next_words_{}, last_heard_{}, last_warning_{};
   std::uint64_t refused_images_ = 0;

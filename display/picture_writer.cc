@@ -122,7 +122,11 @@ void PictureWriter::Shared::note(const std::filesystem::path& path, const Status
   }
   ++failed;
   const std::string& message = status.error().message();
-  if (!news.failed(message.substr(message.rfind(": ") + 1), Clock::now())) return;  // without the path in front
+  // The reason is the same for all frames: without the path in front, and the folder of this one.
+  std::string reason = message.substr(message.rfind(": ") + 1);
+  if (const auto at = reason.find(path.parent_path().string()); at != reason.npos)
+    reason.erase(at, path.parent_path().string().size());
+  if (!news.failed(reason, Clock::now())) return;
   log::error("{}; frames go on, further pictures that fail for this reason are only counted", message);
   log::debug("the first of them: {}", path.string());
 }

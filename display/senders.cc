@@ -1,6 +1,8 @@
 // Names and who has them.
 #include "display/senders.h"
 
+#include <algorithm>
+
 #include "base/log.h"
 
 namespace lfd::display {
@@ -12,7 +14,7 @@ Result<Senders::Greeting> Senders::hello(const std::string& peer, const std::str
   const auto known = senders_.find(node);
   if (known == senders_.end()) {
     if (senders_.size() >= kMost) return Error(fmt::format("{} nodes send images already", kMost));
-    senders_[node] = {peer, now};
+    senders_[node] = {peer, user, now};
     return Greeting{.is_new = true, .replaced = std::nullopt};
   }
   Sender& sender = known->second;
@@ -20,8 +22,13 @@ Result<Senders::Greeting> Senders::hello(const std::string& peer, const std::str
   const bool may_be_dead = across_machines_ && now - sender.last_heard >= kPatience;
   if (user.empty() && !may_be_dead) return Error(fmt::format("another connection speaks for node \"{}\"", node));
   Greeting greeting{.is_new = true, .replaced = sender.peer};
-  sender = {peer, now};
+  sender = {peer, user, now};
   return greeting;
+}
+
+bool Senders::is_borrowed(const std::string& peer, const std::string& user) const {
+  return std::ranges::any_of(senders_,
+                             [&](const auto& entry) { return entry.second.peer == peer && entry.second.user != user; });
 }
 
 std::optional<std::string> Senders::speaks_for(const std::string& node) const {

@@ -34,6 +34,10 @@ class Senders {
   Result<Greeting> hello(const std::string& peer, const std::string& user, const std::string& node,
                          Clock::time_point now);
 
+  // Whether a connection that speaks for a node calls itself so, but greeted with another key: connections name
+  // themselves, and a name is free again once its connection is gone.
+  bool is_borrowed(const std::string& peer, const std::string& user) const;
+
   // The connection that speaks for a node, if there is one.
   std::optional<std::string> speaks_for(const std::string& node) const;
 
@@ -45,7 +49,7 @@ class Senders {
 
  private:
   struct Sender {
-    std::string peer;
+    std::string peer, user;
     Clock::time_point last_heard;
   };
 

@@ -54,7 +54,7 @@ std::vector<proto::Want> AssetGatherer::next_requests(Clock::time_point now) {
   std::vector<proto::Want> requests;
   for (auto& [hash, partial] : missing_) {
     // The first piece tells how long the asset is; until then nothing more of it is asked for.
-    while (under_way_ < kPiecesUnderWay && (partial.next == 0 || partial.next < partial.total)) {
+    while (under_way_ < most_under_way_ && (partial.next == 0 || partial.next < partial.total)) {
       const std::uint64_t offset = std::exchange(partial.next, partial.next + piece_bytes_);
       if (partial.has(offset / piece_bytes_)) continue;
       partial.asked = std::max(partial.asked, partial.next);

@@ -19,7 +19,7 @@ std::set<std::string> asset_hashes(const proto::Scene& scene);
 
 class AssetGatherer {
  public:
-  // At most this much is asked for and not yet here: bulk never fills the queues of a link.
+  // At most so many pieces are asked for and not yet here, where the deployment says nothing else (Stream.assets_mib).
   static constexpr int kPiecesUnderWay = 8;
   static constexpr std::uint64_t kMaxAsset_bytes = std::uint64_t{1} << 31;
   // What has had no answer for so long, while nothing else has come either, is asked for again: the link may have
@@ -27,6 +27,9 @@ class AssetGatherer {
   static constexpr Clock::duration kPatience = std::chrono::seconds(5), kMostPatience = std::chrono::seconds(80);
 
   explicit AssetGatherer(std::uint32_t piece_bytes) : piece_bytes_(piece_bytes) {}
+
+  // From the next requests on; 0: kPiecesUnderWay.
+  void keep_under_way(int pieces) { most_under_way_ = pieces > 0 ? pieces : kPiecesUnderWay; }
 
   // From now on exactly the assets of these scenes are wanted, `next` being one that is to come; others are forgotten.
   void want(const proto::Scene& scene, const proto::Scene* next = nullptr);
@@ -70,7 +73,7 @@ class AssetGatherer {
   std::uint32_t piece_bytes_;
   Assets assets_;
   std::map<std::string, Partial> missing_;
-  int under_way_ = 0;
+  int under_way_ = 0, most_under_way_ = kPiecesUnderWay;
   bool answered_ = false;          // since the last requests
   Clock::time_point last_news_{};  // the last time that something was asked for or answered
   Clock::duration patience_ = kPatience;

@@ -31,6 +31,10 @@ Check read_pacing(const proto::Deployment::Pacing& m, Pacing& pacing) {
     if (auto fault = check_range("pacing: heartbeat_ms", m.heartbeat_ms(), 20, 60'000)) return fault;
     pacing.heartbeat = std::chrono::milliseconds(m.heartbeat_ms());
   }
+  if (m.hang_s() != 0) {
+    if (auto fault = check_range("pacing: hang_s", m.hang_s(), 1, 86'400)) return fault;
+    pacing.hang = std::chrono::seconds(m.hang_s());
+  }
   pacing.frames_per_second = m.frames_per_second();
   pacing.deadline = std::chrono::milliseconds(m.deadline_ms());
   return std::nullopt;

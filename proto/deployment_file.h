@@ -30,6 +30,7 @@ struct Pacing {
   double frames_per_second = 0;           // 0: as fast as the nodes draw
   std::chrono::milliseconds deadline{0};  // begin to swap; 0: wait for every node
   std::chrono::milliseconds heartbeat{500};
+  std::chrono::seconds hang{600};  // a node whose GPU brings nothing to an end for so long is of no use
 };
 
 // ZeroMQ endpoints, all given; a port written * is chosen freely.

@@ -70,8 +70,9 @@ Check read_stream(const proto::Stream& m) {
   if (m.has_quality()) {
     if (auto fault = check_range("stream: quality", m.quality(), 1, 100)) return fault;
   }
-  constexpr double kMost_mib = 65536;
-  return check_range("stream: waiting_mib", m.waiting_mib(), 0, kMost_mib);
+  constexpr double kMost_mib = 65536, kMostAssets_mib = 64;  // as many pieces as wait in the queue of a link
+  if (auto fault = check_range("stream: waiting_mib", m.waiting_mib(), 0, kMost_mib)) return fault;
+  return check_range("stream: assets_mib", m.assets_mib(), 0, kMostAssets_mib);
 }
 
 }  // namespace lfd::deployment

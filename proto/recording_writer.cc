@@ -32,10 +32,12 @@ std::string record_bytes(const proto::RecordingRecord& record) {
 
 Result<RecordingWriter> RecordingWriter::create(const fs::path& path, proto::RecordingHeader header) {
   LFD_TRY_STATUS(check_writable(path));
+  const auto exists = [&] { return Error(fmt::format("{}: exists already; it is not overwritten", path.string())); };
   std::error_code failure;
-  if (fs::is_regular_file(path, failure))
-    return Error(fmt::format("{}: exists already; it is not overwritten", path.string()));
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (fs::is_regular_file(path, failure)) return exists();
+  const int may_exist = fs::exists(path, failure) ? 0 : O_EXCL;  // a device, a pipe
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | may_exist, 0666);
+  if (descriptor < 0 && errno == EEXIST) return exists();
   if (descriptor < 0) return Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
   RecordingWriter writer(path, descriptor);
   header.set_format(kRecordingFormat);

@@ -28,11 +28,7 @@ class Run {
  public:
   Run(SoakCluster& cluster, FaultChoice& choice) : cluster_(cluster), choice_(choice) {}
 
-  // Kills it first, where it runs.
-  Status start(const char* name) {
-    LFD_TRY_STATUS(cluster_.daemons().start(name));
-    return {};
-  }
+  Status start(const char* name) { return cluster_.start_daemon(name); }
 
   Status kill_for_a_while(std::initializer_list<const char*> names) {
     for (const char* const name : names) cluster_.daemons().kill(name);

@@ -9,21 +9,21 @@
 namespace lfd::bench {
 
 enum class Fault {
-  // Everybody but the victim, a render node or the spare, lives through these.
+  // Everybody but the victim, a render node, lives through these. "left" loses its GL context now and then meanwhile.
   kKillNode,           // and start it again after a while
   kRestartNode,        // kill it and start it at once
   kKillNodeAtInstant,  // at the beginning, drawing, drawn, ready or sending of a frame
   kStopNode,           // SIGSTOP, shorter or longer than the limit
   kSlowNode,           // slower than the deadline, for a while
   kLoseContext,        // of GL
-  kKillSpare,
-  kKillNodeAndSpare,
   kStopOtherNode,
   kStopDisplay,
   kStopController,
   kRemoveFolder,  // that the display writes to
   kChangeScene,   // no fault, but nothing may come of it
   // One of the others dies.
+  kKillSpare,
+  kKillNodeAndSpare,
   kKillOtherNode,
   kKillDisplay,
   kKillController,
@@ -37,7 +37,8 @@ class FaultChoice {
  public:
   explicit FaultChoice(std::uint64_t seed) : random_(seed) {}
 
-  // `gentle`: such as the controller, the display and the other node live through; else such as kill one of them.
+  // `gentle`: such as the controller, the display, the other node and the spare live through; else such as kill one of
+  // them.
   Fault next(bool gentle);
 
   // Uniform between both.

@@ -21,7 +21,7 @@ constexpr double kKillingUntil = 0.05, kBaselineAt = 0.1;  // shares of the whol
 constexpr int kChanges = 4, kLooks = 10;                   // of scenes; after each
 constexpr auto kBetweenLooks = 50ms;
 // That live through all gentle faults, which are all that come after the baseline.
-constexpr std::array kWatched{"controller", "display", "left"};
+constexpr std::array kWatched{"controller", "display", "left", "reserve"};
 
 class Soak {
  public:

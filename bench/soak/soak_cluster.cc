@@ -27,7 +27,8 @@ constexpr int kModules = 8;
 constexpr ImageSize kImage{64, 48};
 constexpr std::size_t kMiddle = std::size_t{4} * (kImage.height / 2 * kImage.width + kImage.width / 2);
 constexpr const char* kProcesses[] = {"controller", "display", "left", "right", "reserve"};
-constexpr Rgb8 kFirstColor{210, 60, 100}, kOtherColor{40, 170, 220};  // of the shells, which cover the middle pixels
+constexpr Rgb8 kFirstColor{210, 60, 100}, kOtherColor{40, 170, 220};     // of the shells, which cover the middle pixels
+constexpr std::uint64_t kFramesBetweenLosses = 300, kMostLosses = 1000;  // of the context of "left"
 constexpr auto kChangePause = 150ms, kRest = 400ms, kLookPause = 100ms, kTick = 10ms;
 constexpr int kChangesBetweenRests = 4;
 constexpr auto kAnswerPatience = 300ms;  // the controller may be stopped
@@ -67,8 +68,20 @@ Result<std::unique_ptr<SoakCluster>> SoakCluster::start(StopSignals& signals) {
   LFD_TRY(cluster->listener_, Listener::open(cluster->state_));
   LFD_TRY(ControlClient client, ControlClient::connect(cluster->control_));
   cluster->client_ = std::make_unique<ControlClient>(std::move(client));
-  for (const char* const name : kProcesses) LFD_TRY_STATUS(cluster->daemons_->start(name));
+  for (const char* const name : kProcesses) LFD_TRY_STATUS(cluster->start_daemon(name));
   return cluster;
+}
+
+Status SoakCluster::start_daemon(const std::string& name) {
+  Daemons::Start how;
+  if (name == "left") {
+    std::vector<std::string> losses;
+    for (std::uint64_t i = 1; i <= kMostLosses; ++i)
+      losses.push_back(fmt::format("lose-context@drawing:{}", last_frame() + i * kFramesBetweenLosses));
+    how.environment["LFD_FAULTS"] = fmt::format("{}", fmt::join(losses, ","));
+  }
+  LFD_TRY_STATUS(daemons_->start(name, std::move(how)));
+  return {};
 }
 
 std::optional<proto::Status> SoakCluster::status() {

@@ -2,14 +2,18 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/clock.h"
 #include "bench/stream/throughput.h"
 #include "bench/stream/two_processes.h"
+#include "display/daemon.h"
 #include "display/frame_assembly.h"
 #include "display/image_peers.h"
+#include "proto/key_files.h"
+#include "proto/wire/curve.h"
 #include "proto/wire/poll.h"
 #include "proto/wire/socket.h"
 #include "rendernode/node/image_outbox.h"
@@ -25,6 +29,22 @@ constexpr auto kPatience = 30s;
 constexpr int kWidth_px = 1024;
 
 ImageSize size_of(std::size_t image_bytes) { return {kWidth_px, static_cast<int>(image_bytes / (4 * kWidth_px))}; }
+
+struct Keys {
+  KeyRing display, node;
+};
+
+Result<Keys> make_keys() {
+  LFD_TRY(const proto::KeyFile display, wire::make_key("display"));
+  LFD_TRY(const proto::KeyFile node, wire::make_key("node"));
+  const AllowList allowed{{{"display", display.public_key(), {proto::Allowed::DISPLAY}},
+                           {"node", node.public_key(), {proto::Allowed::NODE}}}};
+  return Keys{{display, allowed}, {node, allowed}};
+}
+
+std::unique_ptr<wire::Context> context_of(const std::optional<Keys>& keys, KeyRing Keys::*whose) {
+  return keys ? std::make_unique<wire::Context>((*keys).*whose) : std::make_unique<wire::Context>();
+}
 
 // Frames of which every image differs from the one before.
 class Frames {
@@ -55,10 +75,10 @@ class Frames {
 };
 
 // As rendernode/node/daemon_frames.cc, for ever.
-void send_all(const std::string& endpoint, std::size_t image_bytes) {
+void send_all(const std::string& endpoint, std::size_t image_bytes, const std::optional<Keys>& keys) {
   const Frames frames(image_bytes);
-  wire::Context context;
-  auto socket = wire::connect_dealer(context, endpoint, wire::kImages);
+  const auto context = context_of(keys, &Keys::node);
+  auto socket = wire::connect_dealer(*context, endpoint, wire::kImages, wire::Listener::kDisplay);
   if (!socket) return;
   node::ImageOutbox outbox;
   for (std::uint64_t frame = 0;;) {
@@ -137,15 +157,21 @@ class Receiver {
 
 }  // namespace
 
-Result<double> images_pair_seconds(std::size_t image_bytes, int images) {
+Result<double> images_pair_seconds(std::size_t image_bytes, int images, bool keyed) {
+  std::optional<Keys> keys;
+  if (keyed) {
+    LFD_TRY(keys, make_keys());
+  }
   return between_two_processes(
       [&](const auto& say) -> Result<double> {
-        wire::Context context;
-        LFD_TRY(wire::Socket socket, wire::bind_router(context, "tcp://127.0.0.1:*", wire::kImages));
+        const auto context = context_of(keys, &Keys::display);
+        LFD_TRY(wire::Socket socket,
+                wire::bind_router(*context, "tcp://127.0.0.1:*", display::image_limits(size_of(image_bytes)),
+                                  wire::Listener::kDisplay));
         say(socket.endpoint());
         return Receiver(std::move(socket), image_bytes, images).seconds();
       },
-      [&](const std::string& endpoint) { send_all(endpoint, image_bytes); });
+      [&](const std::string& endpoint) { send_all(endpoint, image_bytes, keys); });
 }
 
 }  // namespace lfd::bench

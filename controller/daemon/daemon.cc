@@ -121,6 +121,7 @@ Status Daemon::run(StopSignals& signals) {
 }
 
 void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
+  if (borrows_address(message, now)) return;
   const proto::Envelope& envelope = message.envelope;
   const Membership::Heard heard = members_.heard(message.peer, now);
   const Peer* peer = members_.at(message.peer);
@@ -139,16 +140,14 @@ void Daemon::take_control(const wire::Message& message, Clock::time_point now) {
       if (peer != nullptr) barrier_.drawn(peer->name, envelope.drawn().frame());
       return;
     case proto::Envelope::kReady:
-      if (peer == nullptr) return;
-      stats_.ready(peer->name, envelope.ready(), now);
-      return take_ready(*peer, envelope.ready());
+      if (peer == nullptr || peer->role != proto::NODE) return;
+      return take_ready(*peer, envelope.ready(), now);
     case proto::Envelope::kPrepared:
       if (peer != nullptr) change_.prepared(peer->name, envelope.prepared().number(), envelope.prepared().error());
       return;
     case proto::Envelope::kShown:
       if (peer == nullptr || peer->role != proto::DISPLAY) return;
-      stats_.shown(peer->name, envelope.shown().frame(), now);
-      return log_.shown(envelope.shown().frame(), now);
+      return take_shown(peer->name, envelope.shown(), now);
     case proto::Envelope::kLeave:
       if (const auto name = members_.leave(message.peer)) peer_is_gone(*name, envelope.leave().reason().c_str());
       return;
@@ -173,6 +172,7 @@ void Daemon::tick(Clock::time_point now) {
     proto::Envelope pulse;
     pulse.mutable_pulse()->set_sequence(stage_.store().sequence());
     publish(pulse);
+    say_again(now);
     next_pulse_ = now + options_.deployment.pacing.heartbeat;
   }
   settle_shares(now);

@@ -64,6 +64,12 @@ class Daemon {
     std::string error;  // of the first frame that a node could not draw
   };
 
+  // A frame that was announced and not swapped.
+  struct OpenFrame {
+    Assignment drawn_by;
+    proto::BeginFrame begin;
+  };
+
   Daemon(Options options, Links links, std::unique_ptr<wire::Context> context, Stage stage, Assignment assignment);
 
   // daemon.cc: the loop
@@ -82,6 +88,7 @@ class Daemon {
   void welcome(const Peer& peer, Clock::time_point now);
   void peer_is_gone(const std::string& name, const char* why);
   void peer_is_back(const Peer& peer);
+  void say_not_a_member(const std::string& address);
   void refuse(const std::string& address, const std::string& reason);
   proto::Snapshot snapshot() const;
   void send_snapshot(const std::string& address);
@@ -107,14 +114,20 @@ class Daemon {
   bool lets_join(const wire::Message& message, Clock::time_point now);  // else it is refused, or passed over
   void refuse_join(const wire::Message& message, const Error& why, Clock::time_point now);
   bool seems_repeated(const wire::Message& message, Clock::time_point now);
+  bool borrows_address(const wire::Message& message, Clock::time_point now);
   Status may_ask_for(const wire::Message& message, Clock::time_point now);
 
   // daemon_frames.cc: the life of frames
   void advance(Clock::time_point now);
   bool may_begin(Clock::time_point now) const;
   void begin_frame(Clock::time_point now);
-  void take_ready(const Peer& peer, const proto::Ready& ready);
+  void take_ready(const Peer& peer, proto::Ready ready, Clock::time_point now);
+  void take_shown(const std::string& display, const proto::Shown& shown, Clock::time_point now);
   void finish(const FrameBarrier::Swap& swap, Clock::time_point now);
+  // The frames that were swapped and not shown will not be: so the client is told that asked for them.
+  void lose_unshown(const std::string& why);
+  // Without a deadline, what was lost on the way would be waited for without end: it is said again.
+  void say_again(Clock::time_point now);
   void answer_frames_asked(Clock::time_point now);
   // A display that died, or that lost images to a deadline, will not show the last frame.
   bool is_never_shown(Clock::time_point now) const;
@@ -153,13 +166,15 @@ class Daemon {
   const std::uint64_t session_;  // of this life of the controller
   Assignment assignment_;        // as the deployment has it
   Shares shares_;
-  std::map<std::uint64_t, Assignment> open_;      // who draws the frames that are open
-  std::optional<Clock::time_point> first_shown_;  // when the first scene was there
+  std::map<std::uint64_t, OpenFrame> open_;
+  std::map<std::uint64_t, proto::SwapFrame> unshown_;  // of frames that were asked for and have no deadline
+  std::optional<Clock::time_point> first_shown_;       // when the first scene was there
   Membership members_;
   JoinLimiter limiter_;
   Handouts handouts_;
-  // In the log: refusals of requests and of joins; pieces of assets and answers to strangers that nobody reads.
-  NowAndThen refusals_, refused_joins_{kRefusedJoins}, unread_pieces_, unread_answers_;
+  // In the log: refusals of requests, of joins and of whose key is another; pieces of assets and answers to strangers
+  // that nobody reads.
+  NowAndThen refusals_, refused_joins_{kRefusedJoins}, borrowed_, unread_pieces_, unread_answers_;
   FrameBarrier barrier_;
   controller::Pacing pacing_;
   FrameLog log_;

@@ -37,7 +37,6 @@ void Daemon::begin_frame(Clock::time_point now) {
   std::vector<std::string> nodes;
   for (const auto& [node, modules] : drawn_by) nodes.push_back(node);
   const std::uint64_t frame = barrier_.begin(nodes, now);
-  open_[frame] = drawn_by;
   pacing_.begun(now);
   stats_.begun(frame, now);
   cue_begun(now);
@@ -48,11 +47,16 @@ void Daemon::begin_frame(Clock::time_point now) {
   begin.set_sequence(stage_.store().sequence());
   begin.set_time_modules(asked_ && asked_->time_modules);
   begin.mutable_node()->Add(nodes.begin(), nodes.end());
+  open_[frame] = {drawn_by, begin};
   publish(std::move(envelope));
   log::debug("frame {}: begin", frame);
 }
 
-void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
+void Daemon::take_ready(const Peer& peer, proto::Ready ready, Clock::time_point now) {
+  const std::string* hash = log_.state_hash(ready.frame());
+  if (ready.report().error().empty() && hash != nullptr && ready.report().state_hash() != *hash)
+    ready.mutable_report()->set_error("it drew another state than the frame's");  // a frame never mixes two
+  stats_.ready(peer.name, ready, now);
   log_.reported(ready.frame(), peer.name, ready.report());
   drawn_of_replay(peer, ready);
   const bool is_said = said_errors_[peer.name] == ready.report().error();
@@ -65,8 +69,25 @@ void Daemon::take_ready(const Peer& peer, const proto::Ready& ready) {
   if (asked_ && is_open && ready.frame() >= asked_->first && asked_->error.empty()) asked_->error = error;
 }
 
+void Daemon::take_shown(const std::string& display, const proto::Shown& shown, Clock::time_point now) {
+  const bool is_asked_for = unshown_.contains(shown.frame());
+  if (shown.dropped()) {
+    if (is_asked_for) lose_unshown(fmt::format("frame {} was not shown: images of it were lost", shown.frame()));
+    return;
+  }
+  unshown_.erase(shown.frame());
+  if (!log_.shown(shown.frame(), now)) return;
+  stats_.shown(display, shown.frame(), now);
+}
+
+void Daemon::lose_unshown(const std::string& why) {
+  if (unshown_.empty()) return;
+  unshown_.clear();
+  if (asked_ && asked_->error.empty()) asked_->error = why;
+}
+
 void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
-  const Assignment drawn_by = std::move(open_.extract(swap.frame).mapped());
+  const Assignment drawn_by = std::move(open_.extract(swap.frame).mapped().drawn_by);
   std::vector<std::uint32_t> fresh;
   proto::Envelope envelope;
   proto::SwapFrame& message = *envelope.mutable_swap();
@@ -80,6 +101,7 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   }
   const std::vector<std::uint32_t> stale = modules_beside(assignment_, fresh);
   message.mutable_stale_modules()->Add(stale.begin(), stale.end());
+  if (asked_ && has_display_sink() && !has_deadline()) unshown_[swap.frame] = message;
   publish(std::move(envelope));
   log_.swapped(swap, stale, now);
   stats_.swapped(swap, now);
@@ -97,6 +119,25 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   }
   log::debug("frame {}: swap after {:.1f} ms, {} modules stale", swap.frame, milliseconds(now - swap.begun),
              stale.size());
+}
+
+void Daemon::say_again(Clock::time_point now) {
+  if (has_deadline()) return;
+  for (const FrameBarrier::Waiting& waiting : barrier_.waiting_since(now - options_.deployment.pacing.heartbeat)) {
+    proto::Envelope envelope;
+    *envelope.mutable_begin() = open_.at(waiting.frame).begin;
+    envelope.mutable_begin()->set_again(true);
+    envelope.mutable_begin()->mutable_node()->Assign(waiting.nodes.begin(), waiting.nodes.end());
+    publish(std::move(envelope));
+  }
+  std::size_t count = 0;
+  for (const auto& [frame, swap] : unshown_) {
+    if (++count > FrameBarrier::kInFlight) break;
+    proto::Envelope envelope;
+    *envelope.mutable_swap() = swap;
+    envelope.mutable_swap()->set_again(true);
+    publish(std::move(envelope));
+  }
 }
 
 bool Daemon::is_never_shown(Clock::time_point now) const {
@@ -124,6 +165,7 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
   reply(asked_->client, std::move(answer));
   if (!complete) pacing_.ask_for(0);
   asked_.reset();
+  unshown_.clear();
   log_.nobody_wants_them();
 }
 

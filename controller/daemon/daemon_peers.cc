@@ -1,4 +1,6 @@
 // Nodes and the display: joining, keeping up, going.
+#include <set>
+
 #include "base/log.h"
 #include "controller/daemon/daemon.h"
 #include "proto/calibration_file.h"
@@ -11,15 +13,19 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
   const Peer* known = members_.at(message.peer);
   const bool asks_again = known != nullptr && known->name == join.name() && !known->last_heard;
   const std::string images_before = images_endpoint();
-  const Result<std::optional<std::string>> joined = members_.join(join, message.peer, now);
+  const Result<std::optional<std::string>> joined = members_.join(join, message.peer, now, message.user);
   if (!joined) return refuse_join(message, joined.error(), now);
   if (!*joined) return log::debug("\"{}\" (process {}) comes under a name that may live", join.name(), join.process());
   const std::string& name = **joined;
   stats_.joined(name);
+  std::set<std::string> remembered;
+  for (const Peer* peer : members_.peers()) remembered.insert(peer->name);
+  stats_.keep_only(remembered);
   change_.gone(name);
   barrier_.gone(name);  // whatever it drew before it joined anew is lost
   if (!asks_again) log::info("\"{}\" joins (process {})", name, join.process());
   const Peer& peer = *members_.find(name);
+  if (peer.role == proto::DISPLAY && !asks_again) lose_unshown("the display came anew, and has not shown every frame");
   const bool moved = !asks_again || images_endpoint() != images_before;
   if (peer.role == proto::DISPLAY && moved) publish_images_endpoint();
   if (stage_.has_scene()) welcome(peer, now);
@@ -27,7 +33,7 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
 
 void Daemon::take_heartbeat(const wire::Message& message) {
   const Peer* peer = members_.at(message.peer);
-  if (peer == nullptr) return refuse(message.peer, "not a member of this cluster");
+  if (peer == nullptr) return say_not_a_member(message.peer);
   const std::string& hash = message.envelope.heartbeat().state_hash();
   const Phase before = peer->phase;
   const bool can_draw = peer->role != proto::NODE || message.envelope.heartbeat().share() == shares_.number(peer->name);
@@ -50,6 +56,7 @@ void Daemon::welcome(const Peer& peer, Clock::time_point now) {
   }
   welcome.set_images_endpoint(images_endpoint());
   welcome.set_heartbeat_ms(static_cast<std::uint32_t>(deployment.pacing.heartbeat.count()));
+  welcome.set_hang_s(static_cast<std::uint32_t>(deployment.pacing.hang.count()));
   welcome.set_may_drop(has_deadline());
   *welcome.mutable_stream() = deployment.message.stream();
   welcome.set_sink(static_cast<std::uint32_t>(deployment.message.sink()));
@@ -65,7 +72,9 @@ void Daemon::peer_is_gone(const std::string& name, const char* why) {
   stats_.fault(name, fmt::format("out: {}", why));
   barrier_.gone(name);
   late_.gone(name);
-  if (members_.find(name)->role == proto::DISPLAY) publish_images_endpoint();
+  if (members_.find(name)->role != proto::DISPLAY) return;
+  lose_unshown("the display is out, and has not shown every frame");
+  publish_images_endpoint();
 }
 
 void Daemon::peer_is_back(const Peer& peer) {
@@ -73,6 +82,13 @@ void Daemon::peer_is_back(const Peer& peer) {
   if (stage_.has_scene()) send_snapshot(peer.address);
   if (peer.role == proto::DISPLAY) publish_images_endpoint();
   prepares_too(peer);
+}
+
+void Daemon::say_not_a_member(const std::string& address) {
+  proto::Envelope envelope;
+  envelope.mutable_refused()->set_reason("not a member of this cluster");
+  envelope.mutable_refused()->set_not_a_member(true);
+  send(address, std::move(envelope));
 }
 
 void Daemon::refuse(const std::string& address, const std::string& reason) {

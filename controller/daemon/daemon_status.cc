@@ -36,9 +36,11 @@ proto::Status Daemon::status(Clock::time_point now) const {
     entry.set_process(peer->process);
     if (peer->role != proto::NODE) continue;
     entry.set_spare(shares_.is_spare(peer->name));
+    // It keeps modules ready that it has given back, but does not draw them.
+    if (entry.spare() && shares_.stands_in_for(peer->name).empty()) continue;
     for (const std::uint32_t module : shares_.of(peer->name)) entry.add_module(module);
   }
-  status.set_refused_messages(links_.control.refused() + links_.bulk.refused());
+  status.set_refused_messages(links_.control.refused() + links_.state.refused() + links_.bulk.refused());
   stats_.fill(status, log_.stale_modules(), now);
   return status;
 }

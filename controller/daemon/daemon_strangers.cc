@@ -41,6 +41,12 @@ bool Daemon::lets_join(const wire::Message& message, Clock::time_point now) {
   if (!limiter_.admits(message.user.empty() ? message.peer : message.user, now)) {
     if (limiter_.warns(now))
       log::warn("too many joins and requests for the state; {} so far are passed over", limiter_.passed_over());
+    if (limiter_.tells(message.peer, now)) {
+      proto::Envelope later;
+      later.mutable_refused()->set_reason("too many want to join");
+      later.mutable_refused()->set_try_again_ms(static_cast<std::uint32_t>(JoinLimiter::kTellPause.count()));
+      send(message.peer, std::move(later));
+    }
     return false;
   }
   Status may = check_words(join, options_.deployment);
@@ -81,6 +87,17 @@ bool Daemon::seems_repeated(const wire::Message& message, Clock::time_point now)
   const bool still_there = static_cast<bool>(links_.control.send_to(peer->address, proto::Envelope()));
   if (still_there) log::debug("\"{}\" joins from another place, and is heard where it was", peer->name);
   return still_there;
+}
+
+// It is the key that says who speaks. Nothing is answered: the answer would go to whoever calls itself so by then.
+bool Daemon::borrows_address(const wire::Message& message, Clock::time_point now) {
+  const Peer* owner = members_.other_at(message.peer, message.user);
+  if (owner == nullptr) return false;
+  stats_.refused();
+  if (borrowed_.due(now))
+    log::warn("a message from the address of \"{}\" is refused: it came with the key of \"{}\"", owner->name,
+              message.user);
+  return true;
 }
 
 Status Daemon::may_ask_for(const wire::Message& message, Clock::time_point now) {

@@ -1,14 +1,14 @@
-// The node's loop: joining, the state, assets.
+// The node's loop: joining, and what the controller says to it alone.
 #include "rendernode/node/daemon.h"
 
 #include <unistd.h>
 
 #include <algorithm>
 
-#include "base/fault.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
+#include "proto/try_again.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::node {
@@ -123,16 +123,7 @@ Status Daemon::hear_control() {
   while (const auto message = control_.receive()) {
     last_heard_ = Clock::now();
     const auto& envelope = message->envelope;
-    if (envelope.has_refused() && welcome_) {
-      log::info("the controller does not know this node ({}); joining again", envelope.refused().reason());
-      welcome_ = false;
-      gatherer_.ask_again();
-      next_words_ = Clock::now();
-      continue;
-    }
-    if (envelope.has_refused()) {
-      return Error(fmt::format("{}: refused: {}", control_.endpoint(), envelope.refused().reason()));
-    }
+    if (envelope.has_refused()) LFD_TRY_STATUS(take_refusal(envelope.refused()));
     if (envelope.has_welcome() && !welcome_) LFD_TRY_STATUS(welcome(envelope.welcome(), envelope.session()));
     if (envelope.session() != session_) continue;
     if (envelope.has_assign()) {
@@ -147,25 +138,48 @@ Status Daemon::hear_control() {
   return {};
 }
 
+Status Daemon::take_refusal(const proto::Refused& refused) {
+  // Of every heartbeat that a new controller has heard: the join that the first brings about stands.
+  if (refused.not_a_member() && !welcome_) return {};
+  if (const auto pause = try_again_after(refused)) {
+    if (welcome_) return {};  // of a join before the one that let it in
+    if (!waits_to_join_)
+      log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(*pause));
+    waits_to_join_ = true;
+    next_words_ = Clock::now() + *pause;
+    return {};
+  }
+  if (!welcome_) return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
+  log::info("the controller does not know this node ({}); joining again", refused.reason());
+  welcome_ = false;
+  gatherer_.ask_again();
+  next_words_ = Clock::now();
+  return {};
+}
+
 Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   LFD_TRY(state_socket_, wire::connect_subscriber(*context_, message.state_endpoint()));
   LFD_TRY(bulk_, wire::connect_dealer(*context_, message.bulk_endpoint(), wire::kChunks));
   auto display = read_calibration(message.display());
   if (!display) return display.error().within("the controller's display");
   session_ = session;
+  prepared_shown_ = prepared_sequence_ = 0;  // that session numbers its scenes anew
   if (message.heartbeat_ms() > 0) heartbeat_ = std::chrono::milliseconds(message.heartbeat_ms());
+  if (message.hang_s() > 0) hang_ = std::chrono::seconds(message.hang_s());
   may_drop_ = message.may_drop();
   sink_ = static_cast<proto::Deployment::Sink>(message.sink());
   hears_state_ = false;
   if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
   restart_images(message.stream());
   gatherer_.ask_again();
+  gatherer_.keep_under_way(static_cast<int>(message.stream().assets_mib()));  // pieces of one MiB
   LFD_TRY_STATUS(take_share(message.share(), *display, {message.modules().begin(), message.modules().end()}));
   follower_ = {};
   images_endpoint_.clear();  // greet it anew, wherever it is
   take_snapshot(message.snapshot());
   use_images_endpoint(message.images_endpoint());
   welcome_ = true;
+  waits_to_join_ = false;
   stats_.joined(static_cast<std::size_t>(message.modules_size()));
   service_.ready();
   next_words_ = Clock::now();
@@ -181,6 +195,8 @@ Status Daemon::take_share(std::uint64_t share, const DisplayCalibration& display
   if (modules.size() > MODULES_PER_NODE)
     return Error(fmt::format("{} modules; a node draws at most {}", modules.size(), MODULES_PER_NODE));
   begun_.clear();
+  newest_begun_.reset();
+  said_ready_.clear();
   waiting_.clear();
   states_.clear();
   share_ = share;
@@ -209,91 +225,6 @@ bool Daemon::stop_drawing_within(Clock::duration patience) {
   const auto until = Clock::now() + patience;
   retire_drawing();
   return std::ranges::all_of(retired_, [&](const auto& thread) { return thread->stop_within(until - Clock::now()); });
-}
-
-void Daemon::take_snapshot(const proto::Snapshot& snapshot) {
-  follower_.snapshot_came(snapshot.state());
-  if (!snapshot.images_endpoint().empty()) use_images_endpoint(snapshot.images_endpoint());
-  follow_assets();
-}
-
-void Daemon::hear_state() {
-  if (!state_socket_) return;
-  while (const auto message = state_socket_->receive()) {
-    const auto& envelope = message->envelope;
-    if (envelope.session() != session_) continue;  // another controller's, that this node has not joined (yet)
-    last_heard_ = Clock::now();
-    switch (envelope.body_case()) {
-      case proto::Envelope::kUpdate:
-        follower_.update_came(envelope.update());
-        if (envelope.update().prepared() != 0) {
-          prepared_shown_ = envelope.update().prepared();
-          prepared_sequence_ = envelope.update().sequence();
-        }
-        if (envelope.update().has_images_endpoint()) use_images_endpoint(envelope.update().images_endpoint());
-        follow_assets();
-        break;
-      case proto::Envelope::kBegin:
-        follower_.pulse_came(envelope.begin().sequence());
-        if (!draws(envelope.begin())) break;
-        fault::at(fault::kBegin, envelope.begin().frame());
-        stats_.begun(envelope.begin().frame(), last_heard_);
-        begun_.push_back({envelope.begin(), follower_.state()});
-        begin_frames();  // before the next update: a frame is drawn from the state it names
-        break;
-      case proto::Envelope::kPulse:
-        follower_.pulse_came(envelope.pulse().sequence());
-        hears_state_ = true;
-        break;
-      case proto::Envelope::kQuit:
-        log::info("the controller says quit: {}", envelope.quit().reason());
-        ended_ = true;
-        break;
-      default:
-        break;
-    }
-  }
-}
-
-// Asks for what is missing; once all is here, the state can be drawn, and the controller hears its hash.
-void Daemon::follow_assets() {
-  const auto& state = follower_.state();
-  if (!state || !state->has_scene() || (state == ready_state_ && gatherer_.complete())) return;
-  gatherer_.want(state->scene(), preparation_ ? &preparation_->state->scene() : nullptr);
-  for (const auto& want : gatherer_.next_requests(Clock::now())) {
-    proto::Envelope request;
-    *request.mutable_want() = want;
-    if (!bulk_ || !bulk_->send(request)) {
-      gatherer_.ask_again();
-      break;
-    }
-  }
-  if (!gatherer_.has_all_of(state->scene())) return;
-  ready_state_ = state;
-  ready_assets_ = std::make_shared<const Assets>(gatherer_.assets());
-  const std::string hash = state_hash(*state);
-  if (hash == ready_hash_) return;
-  ready_hash_ = hash;
-  next_words_ = Clock::now();
-}
-
-void Daemon::hear_bulk() {
-  if (!bulk_) return;
-  bool any_came = false;
-  while (const auto message = bulk_->receive()) {
-    if (message->envelope.has_not_found()) {
-      log::info("the controller has no asset {} any more", message->envelope.not_found().hash());
-      gatherer_.not_found(message->envelope.not_found().hash());
-    }
-    if (!message->envelope.has_chunk()) continue;
-    any_came = true;
-    if (const Status came = gatherer_.piece_came(message->envelope.chunk(), message->payload.text()); !came) {
-      log::warn("{}", came.error().message());
-    }
-  }
-  // What is not found is not asked for again at once: news of the other scene is on its way.
-  if (any_came) follow_assets();
-  build_prepared();
 }
 
 }  // namespace lfd::node

@@ -46,7 +46,8 @@ class Daemon {
   bool stop_drawing_within(Clock::duration patience);
 
  private:
-  // A frame that was announced and not yet given to the render thread, and the state that it is of.
+  // A frame that was announced and not yet given to the render thread, and the state that it is of: absent where that
+  // was not here when it was announced.
   struct Begun {
     proto::BeginFrame begin;
     std::shared_ptr<const proto::State> state;
@@ -74,10 +75,11 @@ class Daemon {
   Daemon(DaemonOptions options, std::unique_ptr<wire::Context> context, wire::Socket control)
       : options_(std::move(options)), context_(std::move(context)), control_(std::move(control)) {}
 
-  // daemon.cc: the loop and the controller's words
+  // daemon.cc: the loop and the controller's words to this node
   void wait_for_something(const StopSignals& signals) const;
   void join_or_beat(Clock::time_point now);
   Status hear_control();
+  Status take_refusal(const proto::Refused& refused);
   Status welcome(const proto::Welcome& message, std::uint64_t session);
   // These are its modules from now on; what it drew of others ends. The thread that draws them stays where it draws the
   // very same.
@@ -85,12 +87,14 @@ class Daemon {
   // The context is there, and the display takes images.
   bool can_draw() const;
   void retire_drawing();
+  void say(proto::Envelope envelope);
+  void serve(Clock::time_point now);  // the service manager and Prometheus
+
+  // daemon_state.cc: the state and its assets
   void hear_state();
   void take_snapshot(const proto::Snapshot& snapshot);
   void follow_assets();
   void hear_bulk();
-  void say(proto::Envelope envelope);
-  void serve(Clock::time_point now);  // the service manager and Prometheus
 
   // daemon_scenes.cc: a scene that is to come is built beside the one that is shown
   void take_prepare(const proto::Prepare& message);
@@ -104,9 +108,11 @@ class Daemon {
 
   // daemon_frames.cc: frames and images
   bool draws(const proto::BeginFrame& begin) const;  // this node is named
+  void take_begin(const proto::BeginFrame& begin);
   void begin_frames();
-  bool is_overtaken(const Begun& begun) const;
+  bool can_show(const Begun& begun) const;
   Status take_events();
+  Status check_drawing(Clock::time_point now) const;  // that no driver hangs
   Status take_events_of(RenderThread& thread);
   std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
   void say_ready(std::uint64_t frame, proto::NodeReport report);
@@ -148,6 +154,8 @@ class Daemon {
   // Of earlier welcomes, still in a frame that nobody waits for.
   std::vector<std::unique_ptr<RenderThread>> retired_;
   std::deque<Begun> begun_;
+  std::optional<std::uint64_t> newest_begun_;  // of this share
+  std::deque<proto::Ready> said_ready_;        // of the last frames: what was said may have been lost
   std::map<std::uint64_t, FrameState> states_;
   ImageOutbox outbox_;
   std::optional<FileSink> files_;
@@ -161,9 +169,10 @@ class Daemon {
   Clock::time_point next_look_{};  // when those are told again
 
   bool welcome_ = false, may_drop_ = false, ended_ = false;
-  bool hears_state_ = false;  // a pulse has come: no begin will be missed, so the controller may count on this node
+  bool waits_to_join_ = false;  // it was told to try again, and has said so
+  bool hears_state_ = false;    // a pulse has come: no begin will be missed, so the controller may count on this node
   proto::Deployment::Sink sink_ = proto::Deployment::DISPLAY;
-  Clock::duration heartbeat_ = std::chrono::milliseconds(500);
+  Clock::duration heartbeat_ = std::chrono::milliseconds(500), hang_ = std::chrono::minutes(10);
   Clock::time_point next_words_{}, last_heard_{}, next_snapshot_request_{};
   std::uint64_t dropped_frames_ = 0;
 };

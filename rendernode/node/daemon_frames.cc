@@ -11,6 +11,7 @@ namespace lfd::node {
 namespace {
 
 constexpr std::size_t kMostBegun = 8;
+constexpr std::size_t kSaidReady = 2;  // as many frames as a controller has open
 
 }  // namespace
 
@@ -23,14 +24,34 @@ bool Daemon::draws(const proto::BeginFrame& begin) const {
   return std::ranges::find(begin.node(), options_.name) != begin.node().end();
 }
 
+// A controller that waits for a frame tells of it again: this node, or what it said of the frame, may not have been
+// heard.
+void Daemon::take_begin(const proto::BeginFrame& begin) {
+  if (!draws(begin)) return;
+  if (newest_begun_ && begin.frame() <= *newest_begun_) {
+    for (const proto::Ready& ready : said_ready_) {
+      if (ready.frame() != begin.frame()) continue;
+      proto::Envelope again;
+      *again.mutable_ready() = ready;
+      say(again);
+    }
+    return;
+  }
+  newest_begun_ = begin.frame();
+  fault::at(fault::kBegin, begin.frame());
+  stats_.begun(begin.frame(), last_heard_);
+  begun_.push_back({begin, follower_.sequence() == begin.sequence() ? follower_.state() : nullptr});
+  begin_frames();  // before the next update: a frame is drawn from the state it names
+}
+
 // A frame is drawn as soon as its state is here; a node that is far behind passes the oldest over.
 void Daemon::begin_frames() {
   while (begun_.size() > kMostBegun) begun_.pop_front();
   while (!begun_.empty() && drawing_ && ready_state_ && ready_state_->sequence() >= begun_.front().begin.sequence()) {
     const proto::BeginFrame& begin = begun_.front().begin;
-    if (is_overtaken(begun_.front())) {
+    if (!can_show(begun_.front())) {
       proto::NodeReport report;
-      report.set_error("a newer state came before the assets of the frame's own");
+      report.set_error("a newer state came before all that the frame's own needs");
       say_ready(begin.frame(), std::move(report));
     } else {
       if (shows_prepared(begun_.front())) switch_to_prepared();
@@ -41,13 +62,29 @@ void Daemon::begin_frames() {
   }
 }
 
-// Whether the state at hand would show something else than the frame's own: other nodes draw that one, and a frame
-// never mixes two.
-bool Daemon::is_overtaken(const Begun& begun) const {
-  return begun.state != nullptr && begun.state != ready_state_ && state_hash(*begun.state) != ready_hash_;
+// Whether the state at hand is the frame's own, or shows the same: other nodes draw that one, and a frame never mixes
+// two. Messages of two channels overtake each other: a snapshot may be newer than the frame that is announced after it.
+bool Daemon::can_show(const Begun& begun) const {
+  if (ready_state_->sequence() == begun.begin.sequence()) return true;
+  return begun.state != nullptr && state_hash(*begun.state) == ready_hash_;
+}
+
+// A process whose driver hangs says heartbeats all the same, and would be waited for in every frame. It ends, so that a
+// spare draws for it, and whoever starts it again finds another driver, or an error.
+Status Daemon::check_drawing(Clock::time_point now) const {
+  std::vector<const RenderThread*> threads{drawing_.get(), finishing_.get()};
+  if (preparation_) threads.push_back(preparation_->drawing.get());
+  for (const auto& retired : retired_) threads.push_back(retired.get());
+  for (const RenderThread* thread : threads) {
+    if (thread != nullptr && thread->stuck_for(now) > hang_)
+      return Error(fmt::format("the GPU has brought nothing to an end for {:.0f} s: its driver hangs",
+                               milliseconds(hang_) / 1000));
+  }
+  return {};
 }
 
 Status Daemon::take_events() {
+  LFD_TRY_STATUS(check_drawing(Clock::now()));
   if (std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); }) > 0) give_memory_back();
   take_prepared_events();
   if (finishing_) LFD_TRY_STATUS(take_events_of(*finishing_));
@@ -183,6 +220,8 @@ void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
   proto::Envelope ready;
   ready.mutable_ready()->set_frame(frame);
   *ready.mutable_ready()->mutable_report() = std::move(report);
+  if (!may_drop_) said_ready_.push_back(ready.ready());  // with a deadline nobody asks again
+  if (said_ready_.size() > kSaidReady) said_ready_.pop_front();
   say(ready);
 }
 
@@ -190,7 +229,7 @@ void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
 void Daemon::say_dropped(std::uint64_t frame, proto::NodeReport report) {
   ++dropped_frames_;
   if (sink_ == proto::Deployment::DISPLAY) {
-    report.set_error("images dropped: the display does not take them in time");
+    report.set_error("images dropped: the display had not given credit for them by the time they were drawn");
   } else {
     report.add_warning("images dropped: the sink is too slow");
   }

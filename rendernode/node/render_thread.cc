@@ -44,6 +44,10 @@ bool RenderThread::stop_within(Clock::duration patience) {
   return ended_;
 }
 
+Clock::duration RenderThread::stuck_for(Clock::time_point now) const {
+  return ended_ ? Clock::duration::zero() : now - last_progress_.load();
+}
+
 void RenderThread::say(FrameEvent event) {
   // Full only when nobody listens any more; then what is said does not matter.
   if (!events_.put(std::move(event))) log::debug("a frame event finds no listener");
@@ -51,6 +55,7 @@ void RenderThread::say(FrameEvent event) {
 
 void RenderThread::run(int gpu, const DisplayCalibration& display, const std::vector<std::uint32_t>& modules) {
   while (!stop_) {
+    gets_on();
     if (draw_with_a_context(gpu, display, modules) != End::kLost) break;
     give_up_frames("the GL context was lost");
     if (++lost_in_a_row_ <= kMostLosses) continue;
@@ -80,6 +85,7 @@ RenderThread::End RenderThread::draw_with_a_context(int gpu, const DisplayCalibr
 RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
   while (!stop_) {
     if (under_way_.empty()) {
+      gets_on();
       if (auto job = jobs_.take_within(50ms)) begin(renderer, std::move(*job));
       if (context.is_lost()) return End::kLost;
       continue;
@@ -90,8 +96,10 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
     if (context.is_lost()) return End::kLost;
     if (fault::slowdown() > 1) std::this_thread::sleep_for((fault::slowdown() - 1) * (Clock::now() - oldest.begun));
     say({FrameEvent::Kind::kDrawn, oldest.frame, oldest.epoch, {}, {}});
+    gets_on();
     if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, std::move(*job));
     finish(renderer);
+    gets_on();
     lost_in_a_row_ = 0;
   }
   return End::kStopped;
@@ -101,6 +109,7 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
 // show.
 void RenderThread::begin(Renderer& renderer, DrawJob job) {
   fault::at(fault::kDrawing, job.frame);
+  if (fault::due("hang", fault::kDrawing, job.frame)) std::this_thread::sleep_for(24h);
   FrameOptions options;
   options.buffers.bits = job.state->buffers();
   options.time_modules = job.time_modules;

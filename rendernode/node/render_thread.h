@@ -57,6 +57,9 @@ class RenderThread {
   std::optional<FrameEvent> take();
   int descriptor() const { return events_.descriptor(); }
 
+  // How long it has worked without bringing anything to an end: a driver that hangs never comes back.
+  Clock::duration stuck_for(Clock::time_point now) const;
+
   // Asks it to end. True once it has; a driver call cannot be interrupted, so it may take as long as a frame.
   bool stop_within(Clock::duration patience);
 
@@ -72,6 +75,7 @@ class RenderThread {
   void begin(Renderer& renderer, DrawJob job);
   void finish(Renderer& renderer);
   void say(FrameEvent event);
+  void gets_on() { last_progress_ = Clock::now(); }
 
   struct UnderWay {
     std::uint64_t frame = 0, epoch = 0;
@@ -83,6 +87,7 @@ class RenderThread {
   wire::Mailbox<FrameEvent> events_{64};
   std::atomic<bool> stop_{false}, ended_{false};
   std::atomic<int> pending_{0};
+  std::atomic<Clock::time_point> last_progress_{Clock::now()};
   std::thread thread_;
 };
 

@@ -63,7 +63,7 @@ void Bystanders::to_rights(const std::string& sender, const proto::Envelope& env
     check_refusal(may);
     LFD_CHECK(!may || envelope.join().role() != proto::NODE || envelope.join().name() == sender,
               "a node joins under the name of its key");
-    limiter_.admits(envelope.join().name(), now);
+    if (!limiter_.admits(envelope.join().name(), now)) limiter_.tells(sender, now);
     LFD_CHECK(limiter_.remembered() < 1000, "who joined long ago is forgotten");
   }
   if (!envelope.has_request()) return;

@@ -44,6 +44,7 @@ proto::Join join_of(const std::string& name, proto::Role role) {
   join.set_role(role);
   join.set_name(name);
   join.set_version(kVersion);
+  join.set_calibration_hash("c0");
   join.set_process(1);
   return join;
 }

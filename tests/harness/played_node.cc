@@ -68,7 +68,7 @@ void PlayedNode::step() {
 }
 
 void PlayedNode::take_control(const proto::Envelope& envelope) {
-  if (envelope.has_refused()) refusal = envelope.refused().reason();
+  if (envelope.has_refused() && envelope.refused().try_again_ms() == 0) refusal = envelope.refused().reason();
   if (envelope.has_snapshot()) take_snapshot(envelope.snapshot());
   if (envelope.has_prepare()) {
     prepare = envelope.prepare();
@@ -105,7 +105,13 @@ void PlayedNode::take_state(const proto::Envelope& envelope) {
     if (is_named) named.push_back(envelope.begin().frame());
     if (is_named && habits.draws) answer(envelope.begin().frame());
   }
-  if (envelope.has_swap()) swaps.push_back(envelope.swap());
+  if (!envelope.has_swap()) return;
+  swaps.push_back(envelope.swap());
+  if (!habits.shows && !habits.drops) return;
+  proto::Envelope shown;
+  shown.mutable_shown()->set_frame(envelope.swap().frame());
+  shown.mutable_shown()->set_dropped(habits.drops);
+  send(shown);
 }
 
 void PlayedNode::answer(std::uint64_t frame) {
@@ -115,7 +121,7 @@ void PlayedNode::answer(std::uint64_t frame) {
   proto::Envelope ready;
   ready.mutable_ready()->set_frame(frame);
   ready.mutable_ready()->mutable_report()->set_node(name_);
-  ready.mutable_ready()->mutable_report()->set_state_hash(state_hash());
+  ready.mutable_ready()->mutable_report()->set_state_hash(habits.drawn_hash.empty() ? state_hash() : habits.drawn_hash);
   ready.mutable_ready()->mutable_report()->set_error(habits.error);
   ready.mutable_ready()->mutable_report()->set_renderer(std::string(habits.report_bytes, 'x'));
   send(ready);

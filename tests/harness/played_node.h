@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/version.h"
 #include "proto/wire/socket.h"
+#include "tests/harness/workbench.h"
 
 namespace lfd::harness {
 
@@ -22,13 +23,16 @@ class PlayedNode {
   struct Habits {
     proto::Role role = proto::NODE;
     std::string version = kVersion;
-    std::string calibration_hash = {};
+    std::string calibration_hash = Workbench::display_hash();
     std::string images_endpoint = {};  // of a display
     std::uint64_t process = 1;
     bool beats = true;             // heartbeats
     bool draws = true;             // answers begin with drawn and ready
     bool prepares = true;          // says at once that it has prepared a scene that is to come
+    bool shows = false;            // a display: answers swap with shown
+    bool drops = false;            // instead: the frame was dropped
     std::string error = {};        // with which it cannot draw; empty: it can
+    std::string drawn_hash = {};   // of the state that it says it draws; empty: of its own
     std::size_t report_bytes = 0;  // its reports are at least so long
     std::string key_file = {};     // empty: without keys
   };

@@ -55,6 +55,8 @@ Workbench::Workbench(ImageSize image) {
   LFD_CHECK(saved, saved.error().message());
 }
 
+std::string Workbench::display_hash(ImageSize image) { return calibration_hash(small_display(image)); }
+
 fs::path Workbench::file(const std::string& name, const std::string& content) const {
   const Status written = write_file(folder() / name, content);
   LFD_CHECK(written, written.error().message());

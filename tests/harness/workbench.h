@@ -16,7 +16,11 @@ namespace lfd::harness {
 // behind a screen of 1.6 x 0.9 m, each with images of so many pixels.
 class Workbench {
  public:
-  explicit Workbench(ImageSize image = {16, 8});
+  explicit Workbench(ImageSize image = kSmallImage);
+  static constexpr ImageSize kSmallImage{16, 8};
+
+  // The calibration hash of that display.
+  static std::string display_hash(ImageSize image = kSmallImage);
 
   const std::filesystem::path& folder() const { return folder_.path(); }
 

@@ -33,6 +33,15 @@ KeyedDeployment::KeyedDeployment(const Workbench& bench, const std::string& more
   unwrapped(make_keys(unwrapped(load_deployment(file)), {.operators = {"ann"}, .viewers = {"guest"}}));
 }
 
+std::string KeyedDeployment::add(const std::string& name, Right right) const {
+  const proto::KeyFile made = unwrapped(wire::make_key(name));
+  AllowList list = unwrapped(read_allow_list(folder / kAllowFile));
+  list.members.push_back({name, made.public_key(), {right}});
+  const Status written = create_key_file(key(name), made), listed = write_allow_list(folder / kAllowFile, list);
+  LFD_CHECK(written && listed, "the folder is the test's own");
+  return key(name);
+}
+
 std::string KeyedDeployment::stranger() const {
   return other_folder(folder, "stranger", unwrapped(wire::make_key("left")),
                       unwrapped(read_allow_list(folder / kAllowFile)));

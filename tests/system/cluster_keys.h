@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "proto/key_files.h"
 #include "tests/harness/workbench.h"
 
 namespace lfd::harness {
@@ -14,6 +15,9 @@ struct KeyedDeployment {
   KeyedDeployment(const Workbench& bench, const std::string& more);
 
   std::string key(const std::string& name) const { return (folder / (name + ".key")).string(); }
+
+  // The key of one more member, whom the deployment does not name.
+  std::string add(const std::string& name, Right right) const;
 
   // A key that nobody lists, beside the same list.
   std::string stranger() const;

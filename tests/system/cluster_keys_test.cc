@@ -96,7 +96,8 @@ TEST(ClusterKeys, JoinsNeedTheKeyOfWhoJoins) {
   EXPECT_EQ(refusal("left", "right", proto::NODE), "the key of \"right\" is not that of node \"left\"");
   EXPECT_EQ(refusal("left", "display", proto::NODE), "the key of \"display\" has no right NODE");
   EXPECT_EQ(refusal("display", "left", proto::DISPLAY), "the key of \"left\" has no right DISPLAY");
-  EXPECT_TRUE(says(*controller.process, " with the key of \"guest\" is refused: the key of \"guest\" has no right NODE"));
+  EXPECT_TRUE(
+      says(*controller.process, " with the key of \"guest\" is refused: the key of \"guest\" has no right NODE"));
   EXPECT_EQ(refusal("any name", "display", proto::DISPLAY), "");
   EXPECT_EQ(refusal("left", "left", proto::NODE), "");
   // Who is not listed is not heard at all, and the others go on.
@@ -128,6 +129,17 @@ TEST_P(EitherWay, AnotherVersionIsRefusedAndBothSidesAreTold) {
   ASSERT_TRUE(play_until({&old}, [&] { return old.refusal.has_value(); }));
   const std::string reason = fmt::format("version 0.0.1 does not fit the controller's {}", kVersion);
   EXPECT_EQ(*old.refusal, reason);
+  EXPECT_TRUE(says(*controller.process, "\"left\" (process 1) is refused: " + reason));
+}
+
+TEST_P(EitherWay, ANodeWithoutACalibrationIsRefusedAndBothSidesAreTold) {
+  const Workbench bench;
+  const RunningController controller = start_controller(deployment(bench, "sink: NONE"));
+  PlayedNode blank("left", controller.endpoint, {.calibration_hash = "", .key_file = key(bench, "left")});
+  ASSERT_TRUE(play_until({&blank}, [&] { return blank.refusal.has_value(); }));
+  const std::string reason =
+      fmt::format("display calibration (none) is not the controller's {}", Workbench::display_hash());
+  EXPECT_EQ(*blank.refusal, reason);
   EXPECT_TRUE(says(*controller.process, "\"left\" (process 1) is refused: " + reason));
 }
 

@@ -98,16 +98,15 @@ TEST(ControllerProcess, RefusesWithReasons) {
   PlayedNode left("left", controller.endpoint);
   ASSERT_TRUE(play_until({&left}, [&] { return left.welcome.has_value(); }));
   PlayedNode stranger("middle", controller.endpoint);
-  PlayedNode twin("left", controller.endpoint,
-                  {.version = kVersion, .calibration_hash = {}, .images_endpoint = {}, .process = 2});
-  PlayedNode old("right", controller.endpoint, {.version = "0.0.1", .calibration_hash = {}, .images_endpoint = {}});
-  PlayedNode other("right", controller.endpoint, {.version = kVersion, .calibration_hash = "c", .images_endpoint = {}});
+  PlayedNode twin("left", controller.endpoint, {.process = 2});
+  PlayedNode old("right", controller.endpoint, {.version = "0.0.1"});
+  PlayedNode other("right", controller.endpoint, {.calibration_hash = "c"});
   ASSERT_TRUE(play_until({&left, &stranger, &twin, &old, &other},
                          [&] { return stranger.refusal && twin.refusal && old.refusal && other.refusal; }));
   EXPECT_THAT(*stranger.refusal, HasSubstr("no node \"middle\""));
   EXPECT_THAT(*twin.refusal, HasSubstr("joined already"));
   EXPECT_THAT(*old.refusal, HasSubstr("version 0.0.1"));
-  EXPECT_THAT(*other.refusal, HasSubstr("calibration"));
+  EXPECT_THAT(*other.refusal, HasSubstr("display calibration c is not the controller's"));
   EXPECT_FALSE(left.refusal);
 }
 
@@ -137,8 +136,7 @@ TEST(ControllerProcess, GoesOnWithoutADeadNodeAndTakesItBack) {
   ASSERT_TRUE(play_until({&left}, [&] { return left.swaps.size() > before + 10; }));
   EXPECT_THAT(left.swaps.back().stale_modules(), ElementsAre(2, 3));
   EXPECT_EQ(state_of(controller, "right"), "out");
-  PlayedNode again("right", controller.endpoint,
-                   {.version = kVersion, .calibration_hash = {}, .images_endpoint = {}, .process = 7});
+  PlayedNode again("right", controller.endpoint, {.process = 7});
   ASSERT_TRUE(play_until({&left, &again}, [&] { return both_in(left, again); }));
 }
 

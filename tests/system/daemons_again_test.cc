@@ -29,6 +29,15 @@ class DaemonsAgain : public testing::Test {
     for (const char* const name : names) EXPECT_FALSE(stage_[name].poll()) << name;
   }
 
+  // The display goes on writing meanwhile.
+  void remove_shown() {
+    std::error_code failure;
+    do {
+      failure.clear();
+      fs::remove_all(stage_.shown(), failure);
+    } while (failure);
+  }
+
   FaultStage stage_{""};
   std::map<int, std::string> before_;
 };
@@ -77,7 +86,7 @@ TEST_F(DaemonsAgain, AControllerThatIsStoppedForLongGoesOnWithEverybody) {
 }
 
 TEST_F(DaemonsAgain, AFolderThatGoesAwayCostsPicturesOnly) {
-  fs::remove_all(stage_.shown());
+  remove_shown();
   const std::uint64_t gone = stage_.last_frame();
   ASSERT_TRUE(stage_.shows_frames_after(gone + 3)) << "it is made again";
   // A file in its place: nothing can be written there.
@@ -94,14 +103,18 @@ TEST_F(DaemonsAgain, AFolderThatGoesAwayCostsPicturesOnly) {
     return status.frame() > blocked_at + 5 && status.stale_modules() == 0;
   }));
   if (!blocked) GTEST_SKIP() << "the display was quicker than the test in making its folder anew";
-  EXPECT_EQ(lines_with(stage_["display"], "further pictures that fail for this reason are only counted"), 1);
+  // One for each reason of the two things done to the folder, of many pictures that failed: a file or its folder was
+  // gone, a file was in the way.
+  const auto lines = lines_with(stage_["display"], "further pictures that fail for this reason are only counted");
+  EXPECT_GE(lines, 1);
+  EXPECT_LE(lines, 3);
   fs::remove(stage_.shown());
   ASSERT_TRUE(stage_.is_whole());
   EXPECT_EQ(stage_.pictures_from(stage_.last_frame()), before_);
 }
 
 TEST_F(DaemonsAgain, AFullDiskCostsPicturesOnly) {
-  fs::remove_all(stage_.shown());
+  remove_shown();
   fs::create_directories(stage_.shown());
   if (::mount("lfd-test", stage_.shown().c_str(), "tmpfs", 0, "size=256k") != 0)
     GTEST_SKIP() << "a small file system cannot be mounted here (needs root)";

@@ -246,8 +246,31 @@ TEST_F(DisplayProcess, JoinsAgainWhereANewControllerDoesNotKnowIt) {
   welcome();
   proto::Envelope stranger;
   stranger.mutable_refused()->set_reason("not a member of this cluster");
-  ASSERT_TRUE(control_.send_to(display_, stranger));
+  stranger.mutable_refused()->set_not_a_member(true);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(control_.send_to(display_, stranger));  // an answer to every heartbeat
   welcome();
+  expect(control_, [](const auto& e) { return e.has_heartbeat(); });
+  EXPECT_FALSE(display->poll());
+}
+
+TEST_F(DisplayProcess, JoinsLaterWhereItIsToldToTryAgain) {
+  const auto display = start_display({"--controller", control_.endpoint()});
+  proto::Envelope later;
+  later.mutable_refused()->set_reason("too many want to join");
+  later.mutable_refused()->set_try_again_ms(700);
+  for (int i = 0; i < 2; ++i) {
+    const auto join = expect(control_, [](const auto& e) { return e.has_join(); });
+    ASSERT_TRUE(control_.send_to(join.peer, later));
+  }
+  welcome();
+  ASSERT_TRUE(control_.send_to(display_, later));  // of a join before the one that let it in
+  for (int i = 0; i < 3; ++i) expect(control_, [](const auto& e) { return e.has_heartbeat(); });
+  EXPECT_FALSE(display->poll());
+  int said = 0;
+  for (const std::string& line : display->lines()) {
+    if (line.find("not let in yet: too many want to join; joining again every 700 ms") != std::string::npos) ++said;
+  }
+  EXPECT_EQ(said, 1);
 }
 
 TEST_F(DisplayProcess, FailsWithTheReasonWhereItIsRefusedOrItsEndpointIsTaken) {

@@ -1,6 +1,7 @@
 // Daemons by their names.
 #include "tests/system/fault_stage.h"
 
+#include <cstdio>
 #include <iostream>
 #include <thread>
 
@@ -15,6 +16,15 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
 constexpr int kModules = 4;
+constexpr double kMostPause_s = 0.05 + 2 * 0.25;
+
+// Of the stamp that a line of a log begins with, HH:MM:SS.mmm.
+double time_of_day_s(const std::string& line) {
+  int hours = 0, minutes = 0;
+  double seconds = 0;
+  LFD_CHECK(std::sscanf(line.c_str(), "%d:%d:%lf", &hours, &minutes, &seconds) == 3, "a line of the log has a stamp");
+  return 3600.0 * hours + 60.0 * minutes + seconds;
+}
 
 }  // namespace
 
@@ -48,6 +58,22 @@ Process& FaultStage::start_as(const std::string& name, bench::Daemons::Start how
 }
 
 void FaultStage::kill(const std::string& name) { daemons_->kill(name); }
+
+testing::AssertionResult FaultStage::frames_went_on() {
+  constexpr double kDay_s = 24 * 3600;
+  std::optional<double> before;
+  int swaps = 0;
+  for (const std::string& line : (*this)["controller"].lines()) {
+    if (line.find(": swap after ") == std::string::npos) continue;
+    const double now = time_of_day_s(line);
+    const double pause_s = before ? now - *before + (now < *before ? kDay_s : 0) : 0;
+    if (pause_s > kMostPause_s) return testing::AssertionFailure() << pause_s << " s without a frame before: " << line;
+    before = now;
+    ++swaps;
+  }
+  if (swaps < 10) return testing::AssertionFailure() << "only " << swaps << " swaps in the controller's log";
+  return testing::AssertionSuccess();
+}
 
 std::uint64_t FaultStage::last_frame() const {
   const Result<proto::Status> status = status_at(endpoint_);

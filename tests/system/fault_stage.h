@@ -35,6 +35,11 @@ class FaultStage {
   // SIGKILL, and waits for the end.
   void kill(const std::string& name);
 
+  // Whether the controller that runs swapped frame after frame, from its first on: never longer apart than an interval
+  // and a deadline of kPacing, and one more deadline for a busy machine, which is less than the six heartbeats that it
+  // would take to wait for a silent peer.
+  testing::AssertionResult frames_went_on();
+
   const std::string& endpoint() const { return endpoint_; }
   const std::filesystem::path& deployment() const { return deployment_; }
   std::filesystem::path shown() const { return bench_.folder() / "shown"; }

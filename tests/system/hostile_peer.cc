@@ -23,11 +23,12 @@ std::string text_of(proto::Envelope envelope) {
   return envelope.SerializeAsString();
 }
 
-proto::Envelope join(proto::Role role, const std::string& name, std::uint64_t process) {
+proto::Envelope join(const Target& target, proto::Role role, const std::string& name, std::uint64_t process) {
   proto::Envelope envelope;
   envelope.mutable_join()->set_role(role);
   envelope.mutable_join()->set_name(name);
   envelope.mutable_join()->set_version(kVersion);
+  envelope.mutable_join()->set_calibration_hash(target.calibration_hash);
   envelope.mutable_join()->set_process(process);
   envelope.mutable_join()->set_images_endpoint(role == proto::DISPLAY ? "tcp://127.0.0.1:1" : "");
   return envelope;
@@ -43,7 +44,7 @@ std::vector<std::string> words_of_left(const Target& target) {
   shown.mutable_shown()->set_frame(target.frame + 2);
   snapshot.mutable_snapshot_request();
   leave.mutable_leave()->set_reason("it never said so");
-  std::vector<std::string> words{text_of(join(proto::NODE, "left", target.left_process))};
+  std::vector<std::string> words{text_of(join(target, proto::NODE, "left", target.left_process))};
   for (const auto& envelope : {heartbeat, drawn, ready, shown, snapshot, leave}) words.push_back(text_of(envelope));
   return words;
 }
@@ -59,9 +60,10 @@ proto::Envelope image_of(std::uint64_t frame, std::uint32_t module) {
   return envelope;
 }
 
-zmq::socket_t dealer(zmq::context_t& context, const std::string& endpoint, const KeyRing* keys, Right listener) {
+zmq::socket_t connected(zmq::context_t& context, zmq::socket_type type, const std::string& endpoint,
+                        const KeyRing* keys, Right listener) {
   namespace option = zmq::sockopt;
-  zmq::socket_t socket(context, zmq::socket_type::dealer);
+  zmq::socket_t socket(context, type);
   socket.set(option::linger, 0);
   if (keys != nullptr) {
     socket.set(option::curve_publickey, keys->own.public_key());
@@ -115,7 +117,8 @@ std::vector<std::string> bad_envelopes(const Target& target, std::mt19937& rando
 
 }  // namespace
 
-void send_garbage(const Target& target, std::mt19937& random) {
+int send_garbage(const Target& target, std::mt19937& random) {
+  int arrived = 0;
   for (const std::string& endpoint : target.all()) {
     for (int i = 0; i < 10; ++i) RawPeer(endpoint).send_bytes(random_bytes(random, 1 + random() % 20'000));
     for (const char* const mechanism : {"NULL", "PLAIN", "CURVE", "GSSAPI", "", "NOBODY KNOWS THIS MECHANISM"}) {
@@ -129,17 +132,32 @@ void send_garbage(const Target& target, std::mt19937& random) {
       }
       RawPeer(endpoint).send_bytes(greeting + random_bytes(random, 5000));
       RawPeer(endpoint).send_bytes(greeting + std::string("\4\xFF\5READY", 8) + std::string(300, '\xFF'));
+      RawPeer large(endpoint);
+      large.send_bytes(greeting);
+      large.send_frame_header(std::uint64_t{1} << 62);
+      large.send_bytes(random_bytes(random, 100'000));
     }
     RawPeer(endpoint).send_bytes("GET / HTTP/1.1\r\nHost: lfd\r\n\r\n");
+    RawPeer last(endpoint);  // connections are taken in one by one
+    const bool is_greeted = last.receive(10, 10s).size() == 10;
+    last.send_bytes(zmtp_greeting("NOBODY KNOWS IT"));
+    if (is_greeted && last.is_hung_up_on(10s)) ++arrived;
   }
+  return arrived;
 }
 
-void send_bad_frames(const Target& target, std::mt19937& random) {
+int send_bad_frames(const Target& target, std::mt19937& random) {
+  int greeted = 0;
   for (const std::string& endpoint : target.all()) {
+    bool all = true;
     const auto& properties = endpoint == target.state ? kSubscriber : kDealer;
     const auto with_peer = [&](const auto& what) {
       RawPeer peer(endpoint);
-      if (peer.is_open() && peer.shake_hands(properties)) what(peer);
+      if (peer.is_open() && peer.shake_hands(properties)) {
+        what(peer);
+      } else {
+        all = false;
+      }
     };
     with_peer([&](RawPeer& peer) {
       for (const std::string& envelope : bad_envelopes(target, random)) peer.send_frame(envelope);
@@ -160,22 +178,52 @@ void send_bad_frames(const Target& target, std::mt19937& random) {
       for (int i = 0; i < 1000; ++i) peer.send_frame("\1" + random_bytes(random, 20));
       peer.send_frame("\1" + random_bytes(random, 100'000));
     });
+    if (all) ++greeted;
   }
+  return greeted;
 }
 
-void send_words_of_others(const Target& target, const KeyRing* keys) {
+void send_bad_messages(const Target& target, std::mt19937& random, const StolenKeys& keys) {
+  zmq::context_t context;
+  std::vector<zmq::socket_t> sockets;
+  for (const std::string& endpoint : {target.control, target.bulk, target.images}) {
+    const bool shows = endpoint == target.images;
+    const auto peer = [&]() -> zmq::socket_t& {
+      return sockets.emplace_back(connected(context, zmq::socket_type::dealer, endpoint,
+                                            shows ? keys.images : keys.control,
+                                            shows ? proto::Allowed::DISPLAY : proto::Allowed::CONTROLLER));
+    };
+    say(peer(), bad_envelopes(target, random));
+    zmq::socket_t& of_many = peer();
+    for (int i = 0; i < 10'000; ++i) {
+      const auto more = i % 100 == 99 ? zmq::send_flags::none : zmq::send_flags::sndmore;
+      of_many.send(zmq::buffer(random_bytes(random, 30)), more | zmq::send_flags::dontwait);
+    }
+    say(peer(), {std::string(std::size_t{5} << 20, 'x')});
+  }
+  zmq::socket_t& listener = sockets.emplace_back(
+      connected(context, zmq::socket_type::sub, target.state, keys.control, proto::Allowed::CONTROLLER));
+  for (int i = 0; i < 1000; ++i) listener.set(zmq::sockopt::subscribe, random_bytes(random, 20));
+  zmq::socket_t& loud = sockets.emplace_back(
+      connected(context, zmq::socket_type::sub, target.state, keys.control, proto::Allowed::CONTROLLER));
+  loud.set(zmq::sockopt::subscribe, random_bytes(random, 100'000));
+  std::this_thread::sleep_for(2s);  // the attack lasts; nothing waits for it
+}
+
+void send_words_of_others(const Target& target, const StolenKeys& keys) {
   zmq::context_t context;
   std::vector<zmq::socket_t> sockets;
   const auto at = [&](const std::string& endpoint, Right listener) -> zmq::socket_t& {
-    return sockets.emplace_back(dealer(context, endpoint, keys, listener));
+    return sockets.emplace_back(connected(context, zmq::socket_type::dealer, endpoint,
+                                          listener == proto::Allowed::DISPLAY ? keys.images : keys.control, listener));
   };
   say(at(target.control, proto::Allowed::CONTROLLER), words_of_left(target), 20);
   for (int i = 0; i < 20; ++i) {
     std::vector<std::string> flood;
     for (int k = 0; k < 50; ++k) {
-      flood.push_back(text_of(join(proto::DISPLAY, fmt::format("display {} {}", i, k), 0)));
-      flood.push_back(text_of(join(proto::NODE, "right", static_cast<std::uint64_t>(1'000'000 + k))));
-      flood.push_back(text_of(join(proto::NODE, std::string(1000, 'x') + "\n\x1b[31m", 0)));
+      flood.push_back(text_of(join(target, proto::DISPLAY, fmt::format("display {} {}", i, k), 0)));
+      flood.push_back(text_of(join(target, proto::NODE, "right", static_cast<std::uint64_t>(1'000'000 + k))));
+      flood.push_back(text_of(join(target, proto::NODE, std::string(1000, 'x') + "\n\x1b[31m", 0)));
     }
     say(at(target.control, proto::Allowed::CONTROLLER), flood);
   }

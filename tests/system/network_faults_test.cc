@@ -86,6 +86,7 @@ class NetworkFaults : public testing::Test {
     EXPECT_TRUE(as_before);
     for (const char* const name : {"controller", "display", "left", "right"})
       EXPECT_FALSE((*stage_)[name].poll()) << name;
+    EXPECT_TRUE(stage_->frames_went_on());
   }
 
   std::unique_ptr<SecondHost> host_;

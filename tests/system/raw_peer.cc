@@ -80,6 +80,16 @@ std::string RawPeer::receive(std::size_t bytes, Clock::duration at_most) {
   return text;
 }
 
+bool RawPeer::is_hung_up_on(Clock::duration at_most) {
+  const auto until = Clock::now() + at_most;
+  while (Clock::now() < until) {
+    pollfd item{descriptor_, POLLIN, 0};
+    char bytes[4096];
+    if (::poll(&item, 1, 10) > 0 && ::recv(descriptor_, bytes, sizeof bytes, 0) <= 0) return true;
+  }
+  return false;
+}
+
 bool RawPeer::shake_hands(const std::vector<std::pair<std::string, std::string>>& properties) {
   std::string ready = "\5READY";
   for (const auto& [name, value] : properties)

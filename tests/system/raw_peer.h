@@ -30,6 +30,9 @@ class RawPeer {
   bool send_frame(std::string_view body, bool more = false);
   bool send_frame_header(std::uint64_t size, bool more = false);
 
+  // Whether the other side ends the connection within this time; what it says before is passed over.
+  bool is_hung_up_on(Clock::duration at_most);
+
   // What has come, waiting for so much of it.
   std::string receive(std::size_t bytes, Clock::duration at_most);
 

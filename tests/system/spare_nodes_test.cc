@@ -11,6 +11,8 @@ namespace {
 
 using testing::ElementsAre;
 
+constexpr auto kLimit = std::chrono::milliseconds(600);  // of silence, as FaultStage's pacing has it
+
 std::vector<std::uint32_t> modules_of(const FaultStage& stage, const std::string& name) {
   const auto status = status_at(stage.endpoint());
   EXPECT_TRUE(status);
@@ -36,7 +38,12 @@ std::map<int, std::string> start_all(FaultStage& stage) {
 TEST(SpareNodes, TakeOverWithTheSamePicturesAndGiveBack) {
   FaultStage stage("node { name: \"reserve\" spare: true }");
   const auto before = start_all(stage);
+  const auto killed = Clock::now();
   stage.kill("right");
+  ASSERT_TRUE(becomes(stage.endpoint(),
+                      [](const proto::Status& status) { return peer_in(status, "reserve").module_size() == 2; }));
+  // It is told at the limit of silence; another such time is for a busy machine and the looking.
+  EXPECT_LT(Clock::now() - killed, 2 * kLimit);
   ASSERT_TRUE(draws_whole_without_right(stage));
   EXPECT_THAT(modules_of(stage, "reserve"), ElementsAre(2, 3));
   EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
@@ -50,6 +57,8 @@ TEST(SpareNodes, TakeOverWithTheSamePicturesAndGiveBack) {
   const auto status = status_at(stage.endpoint());
   ASSERT_TRUE(status);
   EXPECT_TRUE(peer_in(*status, "reserve").spare());
+  EXPECT_EQ(peer_in(*status, "reserve").module_size(), 0) << "it draws them no longer";
+  EXPECT_TRUE(stage.frames_went_on());
 }
 
 TEST(SpareNodes, KeepWhatTheyTookOverWherePolicySaysSo) {

@@ -61,6 +61,25 @@ TEST(AssetGatherer, GathersEverythingInWhateverOrderPiecesCome) {
   for (const auto& [hash, text] : s.content) EXPECT_EQ(*gatherer.assets().at(hash), text);
 }
 
+TEST(AssetGatherer, HasNoMorePiecesUnderWayThanItIsTold) {
+  const Served s = served({5431});
+  for (const int most : {1, 3, 20}) {
+    AssetGatherer gatherer(kPiece);
+    gatherer.keep_under_way(most);
+    gatherer.want(s.scene);
+    std::vector<proto::Want> open = gatherer.next_requests(kStart);  // the first tells how long it is
+    std::size_t highest = 0;
+    while (!gatherer.complete()) {
+      ASSERT_FALSE(open.empty());
+      ASSERT_TRUE(answer(gatherer, s, open.back()));
+      open.pop_back();
+      for (auto& want : gatherer.next_requests(kStart)) open.push_back(want);
+      highest = std::max(highest, open.size());
+    }
+    EXPECT_EQ(highest, static_cast<std::size_t>(most));
+  }
+}
+
 TEST(AssetGatherer, AsksOnlyForWhatItLacksAndForgetsWhatNobodyNames) {
   const Served first = served({10, 20}), second = served({20, 30});
   AssetGatherer gatherer(kPiece);

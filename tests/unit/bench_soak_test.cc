@@ -137,18 +137,21 @@ TEST(FaultChoice, IsDecidedByTheSeedAndLeavesNoKindOut) {
   FaultChoice one(3), same(3), other(4);
   std::map<Fault, int> seen;
   bool differs = false;
-  for (int i = 0; i < 39; ++i) {
+  constexpr int kGentle = 11, kKilling = 5;
+  for (int i = 0; i < 3 * kGentle; ++i) {
     const Fault fault = one.next(true);
     EXPECT_EQ(fault, same.next(true));
     differs = differs || fault != other.next(true);
-    EXPECT_LT(fault, Fault::kKillOtherNode);
+    EXPECT_LT(fault, Fault::kKillSpare);
     ++seen[fault];
   }
   EXPECT_TRUE(differs);
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(kGentle));
   for (const auto& [fault, times] : seen) EXPECT_EQ(times, 3) << name_of(fault);
   std::set<Fault> killing;
-  for (int i = 0; i < 3; ++i) killing.insert(one.next(false));
-  EXPECT_EQ(killing, (std::set{Fault::kKillOtherNode, Fault::kKillDisplay, Fault::kKillController}));
+  for (int i = 0; i < kKilling; ++i) killing.insert(one.next(false));
+  EXPECT_EQ(killing, (std::set{Fault::kKillSpare, Fault::kKillNodeAndSpare, Fault::kKillOtherNode, Fault::kKillDisplay,
+                               Fault::kKillController}));
 }
 
 // A table that breaks no bound, though it is at every one of them.

@@ -178,5 +178,15 @@ TEST_F(ClusterStatsTest, ThePageHasASampleForEveryPeer) {
   EXPECT_THAT(family("lfd_controller_frames_total").samples, SizeIs(1));
 }
 
+TEST_F(ClusterStatsTest, WhoIsRememberedNoLongerTakesNoMemory) {
+  stats.joined("passer-by");
+  stats.fault("passer-by", "out");
+  EXPECT_EQ(stats.faults("passer-by"), 1U);
+  stats.keep_only({"left", "right"});
+  EXPECT_EQ(stats.faults("passer-by"), 0U);
+  stats.fault("left", "out");
+  EXPECT_EQ(stats.faults("left"), 1U);
+}
+
 }  // namespace
 }  // namespace lfd::controller

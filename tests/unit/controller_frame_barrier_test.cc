@@ -148,5 +148,22 @@ TEST(FrameBarrier, KeepsItsPromisesUnderRandomEvents) {
   }
 }
 
+TEST(FrameBarrier, TellsWhoIsWaitedForSinceWhen) {
+  FrameBarrier barrier(0ms);
+  barrier.begin({"left", "right"}, kStart);
+  barrier.drawn("left", 0);
+  barrier.drawn("right", 0);
+  barrier.ready("left", 0);
+  barrier.begin({"left", "right"}, kStart + 100ms);
+  EXPECT_TRUE(barrier.waiting_since(kStart - 1ms).empty());
+  const auto first = barrier.waiting_since(kStart);
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(first[0].frame, 0U);
+  EXPECT_EQ(first[0].nodes, std::vector<std::string>{"right"});
+  EXPECT_EQ(barrier.waiting_since(kStart + 100ms).size(), 2U);
+  barrier.gone("right");
+  EXPECT_EQ(barrier.waiting_since(kStart + 100ms).size(), 1U) << "nobody is waited for in the first";
+}
+
 }  // namespace
 }  // namespace lfd::controller

@@ -120,5 +120,25 @@ TEST(FrameLog, RemembersFewFramesUnlessTheyAreWanted) {
   EXPECT_EQ(log.reports(1499, 1).size(), 1U);
 }
 
+TEST(FrameLog, TwoFramesAtTheSameMomentHaveNoRate) {
+  FrameLog log;
+  for (std::uint64_t frame = 0; frame < 2; ++frame) {
+    log.begun(frame, doubled(), "h", kStart);
+    log.swapped({.frame = frame, .ready = {}, .missing = {}, .late = false, .begun = {}}, {}, kStart);
+  }
+  EXPECT_EQ(log.frames_per_second(kStart), 0);
+}
+
+TEST(FrameLog, KnowsTheStateOfAFrameAndWhetherItWasShown) {
+  FrameLog log;
+  log.begun(3, doubled(), "h", kStart);
+  ASSERT_NE(log.state_hash(3), nullptr);
+  EXPECT_EQ(*log.state_hash(3), "h");
+  EXPECT_EQ(log.state_hash(2), nullptr);
+  EXPECT_TRUE(log.shown(3, kStart + 1ms));
+  EXPECT_FALSE(log.shown(3, kStart + 9ms)) << "it was said again";
+  EXPECT_EQ(log.reports(3, 1)[0].begin_to_shown_ms(), 1);
+}
+
 }  // namespace
 }  // namespace lfd::controller

@@ -27,6 +27,7 @@ proto::Join join_of(const std::string& name, std::uint64_t process = 1, proto::R
   join.set_role(role);
   join.set_name(name);
   join.set_version("1.2");
+  join.set_calibration_hash("c0");
   join.set_process(process);
   return join;
 }
@@ -57,9 +58,21 @@ TEST(Membership, RefusesWithTheReason) {
   proto::Join other = join_of("left");
   other.set_calibration_hash("c1");
   EXPECT_THAT(members.join(other, "A", kStart).error().message(), HasSubstr("calibration c1"));
+  other.clear_calibration_hash();
+  EXPECT_EQ(members.join(other, "A", kStart).error().message(),
+            "display calibration (none) is not the controller's c0");
   EXPECT_FALSE(members.join(join_of("client", 1, proto::CLIENT), "A", kStart));
   EXPECT_FALSE(members.join(join_of("left", 1, proto::DISPLAY), "A", kStart));
   EXPECT_FALSE(members.join(join_of("", 1, proto::DISPLAY), "A", kStart));
+}
+
+TEST(Membership, OnlyADisplayMayComeWithoutACalibrationAndTakesTheControllers) {
+  Membership members = two_nodes();
+  proto::Join join = join_of("screen", 1, proto::DISPLAY);
+  join.set_calibration_hash("c1");
+  EXPECT_FALSE(members.join(join, "A", kStart));
+  join.clear_calibration_hash();
+  EXPECT_EQ(*members.join(join, "A", kStart), "screen");
 }
 
 Membership with_left_at_a() {
@@ -191,6 +204,22 @@ TEST(Membership, DoesNotTakeBackWhoLeftOrWasReplaced) {
   ASSERT_THAT(members.expire(kStart + 4s), ElementsAre("left"));
   ASSERT_TRUE(members.join(join_of("left", 13), "C", kStart));
   EXPECT_EQ(members.heard("B", kStart + 4s), Membership::Heard::kStranger);
+}
+
+TEST(Membership, AnAddressIsThatOfTheKeyThatJoinedThereAlsoOnceItIsOut) {
+  Membership members = two_nodes();
+  ASSERT_TRUE(members.join(join_of("left", 11), "A", kStart, "left"));
+  members.welcomed("left", kStart);
+  EXPECT_EQ(members.other_at("A", "left"), nullptr);
+  ASSERT_NE(members.other_at("A", "right"), nullptr);
+  EXPECT_EQ(members.other_at("A", "right")->name, "left");
+  EXPECT_EQ(members.other_at("B", "right"), nullptr);
+  ASSERT_THAT(members.expire(kStart + 4s), ElementsAre("left"));
+  EXPECT_NE(members.other_at("A", "right"), nullptr) << "it would be taken back by a word from there";
+  ASSERT_TRUE(members.join(join_of("left", 12), "B", kStart + 5s, "left"));
+  EXPECT_EQ(members.other_at("A", "right"), nullptr);
+  ASSERT_TRUE(members.leave("B"));
+  EXPECT_EQ(members.other_at("", "right"), nullptr) << "who has left has no address";
 }
 
 TEST(Membership, DoesNotExpectToHearWhoWaitsForItsWelcome) {

@@ -69,6 +69,23 @@ TEST(JoinLimiter, AClockThatStandsStillGivesNothing) {
   EXPECT_EQ(admitted(limiter, "a", 10, kStart - 1s), 0);
 }
 
+TEST(JoinLimiter, TellsAPeerOnceInAWhileAndFewOfMany) {
+  JoinLimiter limiter;
+  EXPECT_TRUE(limiter.tells("a", kStart));
+  EXPECT_FALSE(limiter.tells("a", kStart + 999ms));
+  EXPECT_TRUE(limiter.tells("a", kStart + 1s));
+  const auto told = [&](Clock::time_point now, int from) {
+    int count = 0;
+    for (int i = 0; i < 1000; ++i) count += limiter.tells(fmt::format("{}", from + i), now) ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(told(kStart + 1h, 0), 64);
+  EXPECT_EQ(told(kStart + 1h + 500ms, 1000), 16);
+  EXPECT_EQ(limiter.remembered_told(), 80U);
+  EXPECT_EQ(told(kStart + 2h, 0), 64);
+  EXPECT_EQ(limiter.remembered_told(), 64U) << "those of before are forgotten";
+}
+
 TEST(JoinLimiter, WarnsNowAndThenAndOnlyOfNews) {
   JoinLimiter limiter;
   EXPECT_FALSE(limiter.warns(kStart));

@@ -113,9 +113,10 @@ TEST_F(DeploymentFile, SparesHaveNoModulesOfTheirOwn) {
 
 TEST_F(DeploymentFile, StreamsAreHeldToTheirRanges) {
   const std::string start = "display: \"desk.textproto\" scene { made { name: \"x\" } } node { name: \"a\" } ";
-  EXPECT_TRUE(load(start + "stream { codec: JPEG_IMAGES quality: 100 waiting_mib: 64 }"));
+  EXPECT_TRUE(load(start + "stream { codec: JPEG_IMAGES quality: 100 waiting_mib: 64 assets_mib: 64 }"));
   EXPECT_TRUE(load(start + "stream { codec: ZSTD_IMAGES level: 19 }"));
-  for (const char* const wrong : {"quality: 0", "quality: 101", "level: 0", "level: 20", "waiting_mib: 65537"}) {
+  for (const char* const wrong :
+       {"quality: 0", "quality: 101", "level: 0", "level: 20", "waiting_mib: 65537", "assets_mib: 65"}) {
     const auto deployment = load(start + "stream { " + wrong + " }");
     ASSERT_FALSE(deployment) << wrong;
     const std::string field(wrong, std::string_view(wrong).find(':'));

@@ -53,6 +53,16 @@ TEST(Senders, ANodesOwnKeySpeaksForItAtOnceAndNoOtherEver) {
               HasSubstr("the key of \"right\" speaks for no other node"));
 }
 
+TEST(Senders, AConnectionIsThatOfTheKeyThatGreetedThere) {
+  Senders senders({"left", "right"}, false);
+  ASSERT_TRUE(senders.hello("A", "left", "left", kStart));
+  EXPECT_FALSE(senders.is_borrowed("A", "left"));
+  EXPECT_TRUE(senders.is_borrowed("A", "right"));
+  EXPECT_FALSE(senders.is_borrowed("B", "right"));
+  ASSERT_TRUE(senders.hello("B", "left", "left", kStart));  // it has a new connection
+  EXPECT_FALSE(senders.is_borrowed("A", "right"));
+}
+
 TEST(Senders, OnlyNodesOfTheDeploymentSpeak) {
   Senders senders({"left"}, false);
   EXPECT_FALSE(senders.hello("A", "", "middle", kStart));

@@ -247,5 +247,35 @@ TEST_F(ShowRecorderTest, AnotherSessionIsAnotherShow) {
   EXPECT_THAT(told(recorder), ElementsAre("snapshot 5"));
 }
 
+TEST_F(ShowRecorderTest, WhatIsSaidAgainIsNoOtherLife) {
+  hear(show.pulse());
+  snapshot();
+  const auto begin = show.begin();
+  hear(begin);
+  hear(show.begin());
+  auto again = begin;
+  again.mutable_begin()->set_again(true);
+  hear(again);
+  const auto swap = show.swap(0);
+  hear(swap);
+  again = swap;
+  again.mutable_swap()->set_again(true);
+  hear(again);
+  EXPECT_THAT(told(recorder), ElementsAre("snapshot 5", "begin 0", "begin 1", "swap 0"));
+  EXPECT_FALSE(recorder.end());
+}
+
+TEST_F(ShowRecorderTest, NoMoreFramesAreRecordedThanAskedFor) {
+  recorder = ShowRecorder(kPiece, 2);
+  hear(show.pulse());
+  snapshot();
+  for (int frame = 0; frame < 4; ++frame) hear(show.begin());
+  EXPECT_FALSE(recorder.has_enough());
+  for (std::uint64_t frame = 0; frame < 4; ++frame) hear(show.swap(frame));
+  hear(show.buffers(3));
+  EXPECT_TRUE(recorder.has_enough());
+  EXPECT_THAT(told(recorder), ElementsAre("snapshot 5", "begin 0", "begin 1", "swap 0", "swap 1"));
+}
+
 }  // namespace
 }  // namespace lfd
