@@ -7,11 +7,18 @@
 
 namespace lfd {
 
-std::string content_hash(std::span<const std::byte> bytes) {
+Hash128 hash_128(std::string_view bytes) {
   const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return {hash.high64, hash.low64};
 }
 
-std::string content_hash(std::string_view bytes) { return content_hash(std::as_bytes(std::span(bytes))); }
+std::string content_hash(std::string_view bytes) {
+  const Hash128 hash = hash_128(bytes);
+  return fmt::format("{:016x}{:016x}", hash.high, hash.low);
+}
+
+std::string content_hash(std::span<const std::byte> bytes) {
+  return content_hash(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
 
 }  // namespace lfd

@@ -132,7 +132,7 @@ void ShowRecorder::take_update(const proto::Update& update, Clock::time_point at
   *event.mutable_update() = update;
   event.mutable_update()->clear_images_endpoint();
   record(std::move(event), at);
-  if (update.has_scene() || update.instance_size() > 0) want_assets();  // what turns inside out is another mesh
+  if (names_assets(update)) want_assets();  // what turns inside out is another mesh
 }
 
 // A frame of a state that was passed over with a snapshot cannot be drawn again.

@@ -1,6 +1,8 @@
 // Wishes to updates.
 #include "controller/stage.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/check.h"
@@ -16,6 +18,13 @@ namespace {
 
 constexpr std::size_t kMostStateBytes =
     wire::kSmallMessages.max_part_bytes - (std::size_t{1} << 20);  // beside the rest
+
+// Bit by bit, as hashes see them: 0 is not -0.
+template <class Numbers>
+bool same_numbers(const Numbers& a, const Numbers& b) {
+  return std::ranges::equal(
+      a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+}
 
 }  // namespace
 
@@ -138,16 +147,21 @@ std::optional<proto::Update> Stage::animate(std::uint64_t frame) {
   const double duration_s = scene_->animations.duration_s();
   const double played_s = static_cast<double>(frame) / animation_frames_per_second_;
   const double time_s = duration_s > 0 ? std::fmod(played_s, duration_s) : 0;
+  scene::Moved moved = scene_->animations.at(time_s);
+  const proto::Scene& shown = store_.state().scene();
   proto::Update update;
-  const std::vector<proto::Light> lights = scene_->animations.lights_at(time_s);
-  const std::vector<proto::Instance> instances = scene_->animations.at(time_s);
-  if (lights.empty()) {
-    update.mutable_instance()->Add(instances.begin(), instances.end());
-  } else {
-    proto::Scene& scene = *update.mutable_scene() = store_.state().scene();
-    scene.mutable_instance()->Assign(instances.begin(), instances.end());
-    scene.mutable_light()->Assign(lights.begin(), lights.end());
+  for (proto::MovedInstance& one : moved.instances) {
+    const proto::Instance& now = shown.instance(static_cast<int>(one.index()));
+    if (one.mesh() == now.mesh()) one.clear_mesh();
+    if (one.mesh().empty() && same_numbers(one.world_from_mesh(), now.world_from_mesh())) continue;
+    *update.add_moved_instance() = std::move(one);
   }
+  for (proto::MovedLight& one : moved.lights) {
+    // Byte by byte, as hashes see it.
+    if (one.light().SerializeAsString() == shown.light(static_cast<int>(one.index())).SerializeAsString()) continue;
+    *update.add_moved_light() = std::move(one);
+  }
+  if (!moves(update)) return std::nullopt;
   return store_.change(std::move(update));
 }
 

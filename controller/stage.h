@@ -43,7 +43,7 @@ class Stage {
   proto::Update number(proto::Update update) { return store_.change(std::move(update)); }
 
   // Moves what moves to its place at frame / (frames per second of the deployment), so that pictures do not depend on
-  // how fast frames come. Absent where nothing moves.
+  // how fast frames come. The update names only what is not there yet; absent where all is.
   std::optional<proto::Update> animate(std::uint64_t frame);
 
  private:

@@ -8,13 +8,14 @@
 
 namespace lfd::controller {
 
-StateStore::StateStore() : hashes_{state_hash(state_)} {}
+StateStore::StateStore() : hasher_(state_), hashes_{hasher_.hash()} {}
 
 proto::Update StateStore::change(proto::Update update) {
   update.set_sequence(state_.sequence() + 1);
   const Status applied = apply_update(state_, update);
   LFD_CHECK(applied, applied.error().message());
-  std::string hash = state_hash(state_);
+  hasher_.updated(state_, update);
+  std::string hash = hasher_.hash();
   if (hash != hashes_.back()) hashes_.push_back(std::move(hash));
   if (hashes_.size() > kRemembered + 1) hashes_.pop_front();
   return update;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "proto/state_hasher.h"
 #include "proto/wire.pb.h"
 
 namespace lfd::controller {
@@ -25,10 +26,14 @@ class StateStore {
   // follows the updates; another holds something we never said.
   bool remembers(std::string_view hash) const;
 
+  // By all changes so far: a change costs what it touches.
+  std::uint64_t hashed_bytes() const { return hasher_.hashed_bytes(); }
+
   static constexpr std::size_t kRemembered = 256;
 
  private:
   proto::State state_;
+  StateHasher hasher_;              // of state_
   std::deque<std::string> hashes_;  // the newest last
 };
 

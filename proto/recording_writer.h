@@ -14,7 +14,7 @@
 namespace lfd {
 
 inline constexpr std::string_view kRecordingMark = "lfd recording\n";
-inline constexpr std::uint32_t kRecordingFormat = 1;
+inline constexpr std::uint32_t kRecordingFormat = 2;
 
 // No record is longer: a snapshot fits into one message of the control channel, and assets are written in pieces.
 inline constexpr std::size_t kMostRecord_bytes = std::size_t{65} << 20;

@@ -29,8 +29,9 @@ Status check_vector(const char* field, const proto::Vector& v, double most) {
   return {};
 }
 
-Status check(const proto::Instance& instance) {
-  for (const double number : instance.world_from_mesh()) {
+template <class Placed>  // proto::Instance, proto::MovedInstance
+Status check_place(const Placed& placed) {
+  for (const double number : placed.world_from_mesh()) {
     if (!std::isfinite(number)) return Error(fmt::format("world_from_mesh: {} is not finite", number));
   }
   return {};
@@ -70,9 +71,20 @@ Status check_each(const char* name, const Items& items, Check check) {
 }  // namespace
 
 Status check_numbers(const proto::Scene& scene) {
-  LFD_TRY_STATUS(check_each("instance", scene.instance(), [](const auto& one) { return check(one); }));
+  LFD_TRY_STATUS(check_each("instance", scene.instance(), [](const auto& one) { return check_place(one); }));
   LFD_TRY_STATUS(check_each("material", scene.material(), [](const auto& one) { return check(one); }));
   return check_each("light", scene.light(), [](const auto& one) { return check(one); });
+}
+
+Status check_moved_numbers(const proto::Update& update) {
+  const auto within = [](const char* name, std::uint32_t index, const Status& status) {
+    return status ? status : Status(status.error().within(fmt::format("{} {}", name, index)));
+  };
+  for (const proto::MovedInstance& moved : update.moved_instance())
+    LFD_TRY_STATUS(within("instance", moved.index(), check_place(moved)));
+  for (const proto::MovedLight& moved : update.moved_light())
+    LFD_TRY_STATUS(within("light", moved.index(), check(moved.light())));
+  return {};
 }
 
 }  // namespace lfd

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/result.h"
-#include "proto/scene.pb.h"
+#include "proto/wire.pb.h"
 
 namespace lfd {
 
@@ -10,5 +10,8 @@ namespace lfd {
 // materials and lights; light of a negative amount or of more than 1e30; lights and ranges farther than 1e15 m;
 // directional lights and spots without a direction; cones that are not 0 <= inner < outer <= pi / 2; unknown kinds.
 Status check_numbers(const proto::Scene& scene);
+
+// The same of what an update moves, and of nothing else.
+Status check_moved_numbers(const proto::Update& update);
 
 }  // namespace lfd

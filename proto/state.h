@@ -9,12 +9,17 @@
 
 namespace lfd {
 
-// content_hash of the state's canonical bytes: its deterministic serialisation with the sequence left out.
+// The hash of all of a state but its sequence. Who follows many updates keeps a StateHasher (proto/state_hasher.h).
 std::string state_hash(const proto::State& state);
 
-// Replaces the fields that `update` has and takes its sequence. Errors, with `state` untouched: the update does not
-// follow the state by one (ask for a snapshot), or it places another number of instances than the scene has.
+// Replaces the fields that `update` has, moves what it moves and takes its sequence. Errors, with `state` untouched:
+// the update does not follow the state by one (ask for a snapshot), or it moves what the scene does not have, or to no
+// place.
 Status apply_update(proto::State& state, const proto::Update& update);
+
+// Whether it moves something of a scene; whether assets may be needed that were not before.
+bool moves(const proto::Update& update);
+bool names_assets(const proto::Update& update);
 
 // Equal field by field; unset fields equal only unset ones.
 bool same_message(const google::protobuf::Message& a, const google::protobuf::Message& b);

@@ -117,6 +117,7 @@ Status Replay::take(const proto::RecordingEvent& event) {
     const proto::State& state = event.snapshot();
     if (!state.has_scene() || !state.has_roi() || !state.has_render()) return Error("a state that is not whole");
     state_ = state;
+    hasher_ = StateHasher(state_);
     scene_changed_ = roi_changed_ = render_changed_ = buffers_changed_ = true;
     LFD_TRY_STATUS(check_numbers(state_.scene()));
     return take_assets();
@@ -124,15 +125,15 @@ Status Replay::take(const proto::RecordingEvent& event) {
   if (!event.has_update()) return {};
   const proto::Update& update = event.update();
   LFD_TRY_STATUS(apply_update(state_, update));
+  hasher_.updated(state_, update);
   scene_changed_ |= update.has_scene();
-  instances_changed_ |= update.instance_size() > 0;
+  for (const proto::MovedInstance& moved : update.moved_instance()) moved_instances_.insert(moved.index());
+  for (const proto::MovedLight& moved : update.moved_light()) moved_lights_.insert(moved.index());
   roi_changed_ |= update.has_roi();
   render_changed_ |= update.has_render();
   buffers_changed_ |= update.has_buffers();
-  const bool names_assets = update.has_scene() || update.instance_size() > 0;
-  if (!names_assets) return {};
-  LFD_TRY_STATUS(check_numbers(state_.scene()));
-  return take_assets();
+  LFD_TRY_STATUS(update.has_scene() ? check_numbers(state_.scene()) : check_moved_numbers(update));
+  return names_assets(update) ? take_assets() : Status();
 }
 
 // Those that are here already stay as they are: most updates move things.
@@ -156,7 +157,7 @@ Status Replay::take_assets() {
 Result<Replay::Cue> Replay::cue_of(const proto::RecordingEvent& event, std::uint64_t offset) {
   Cue cue{.frame = event.begin().frame(),
           .at = std::chrono::nanoseconds(event.nanoseconds()),
-          .state_hash = state_hash(state_),
+          .state_hash = hasher_.hash(),
           .change = {},
           .offset = offset};
   if (cue.state_hash != event.begin().state_hash()) {
@@ -168,15 +169,32 @@ Result<Replay::Cue> Replay::cue_of(const proto::RecordingEvent& event, std::uint
   if (scene_changed_) {
     *update.mutable_scene() = state_.scene();
     change.assets = assets_;
-  } else if (instances_changed_) {
-    *update.mutable_instance() = state_.scene().instance();
+  } else {
+    add_moved(update);
   }
   if (roi_changed_) *update.mutable_roi() = state_.roi();
   if (render_changed_) *update.mutable_render() = state_.render();
   if (buffers_changed_) update.set_buffers(state_.buffers());
   if (update.ByteSizeLong() > 0) cue.change = std::move(change);
-  scene_changed_ = instances_changed_ = roi_changed_ = render_changed_ = buffers_changed_ = false;
+  scene_changed_ = roi_changed_ = render_changed_ = buffers_changed_ = false;
+  moved_instances_.clear();
+  moved_lights_.clear();
   return cue;
+}
+
+void Replay::add_moved(proto::Update& update) const {
+  for (const std::uint32_t index : moved_instances_) {
+    const proto::Instance& instance = state_.scene().instance(static_cast<int>(index));
+    proto::MovedInstance& moved = *update.add_moved_instance();
+    moved.set_index(index);
+    moved.set_mesh(instance.mesh());
+    *moved.mutable_world_from_mesh() = instance.world_from_mesh();
+  }
+  for (const std::uint32_t index : moved_lights_) {
+    proto::MovedLight& moved = *update.add_moved_light();
+    moved.set_index(index);
+    *moved.mutable_light() = state_.scene().light(static_cast<int>(index));
+  }
 }
 
 std::string Replay::title() const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,7 @@
 #include "calibration/display.h"
 #include "proto/recording_reader.h"
 #include "proto/scene_data.h"
+#include "proto/state_hasher.h"
 #include "proto/wire.pb.h"
 
 namespace lfd::controller {
@@ -73,15 +75,18 @@ class Replay {
   Status take(const proto::RecordingEvent& event);
   Status take_assets();
   Result<Cue> cue_of(const proto::RecordingEvent& event, std::uint64_t offset);
+  // What has moved since the last frame that was replayed.
+  void add_moved(proto::Update& update) const;
 
   Recording recording_;
   Options options_;
-  proto::State state_;  // with the recorded numbers
-  Assets assets_;       // of its scene
+  proto::State state_;          // with the recorded numbers
+  StateHasher hasher_{state_};  // of state_
+  Assets assets_;               // of its scene
   bool lacks_assets_ = false;
   // What has changed since the last frame that was replayed.
-  bool scene_changed_ = false, instances_changed_ = false, roi_changed_ = false, render_changed_ = false,
-       buffers_changed_ = false;
+  bool scene_changed_ = false, roi_changed_ = false, render_changed_ = false, buffers_changed_ = false;
+  std::set<std::uint32_t> moved_instances_, moved_lights_;
   std::optional<Cue> next_;
   std::chrono::nanoseconds first_at_{0};  // of the first frame replayed
   std::optional<Clock::time_point> started_;

@@ -1,15 +1,18 @@
-// Keyframes to instances.
+// Keyframes to places.
 #include "controller/scene/animations.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 #include "controller/scene/scene_builder.h"
 
 namespace lfd::scene {
 namespace {
+
+constexpr std::size_t kRests = std::numeric_limits<std::size_t>::max();
 
 glm::dvec4 unit(glm::dvec4 q) {
   const double length = glm::length(q);
@@ -87,46 +90,83 @@ glm::dvec4 value_at(const Channel& channel, double seconds) {
   return channel.path == Channel::Path::kRotation ? unit(value) : value;
 }
 
-Animations::Animations(NodeTree tree, std::vector<Channel> channels, std::vector<PlacedInstance> instances,
-                       std::vector<PlacedLight> lights)
-    : tree_(std::move(tree)),
-      channels_(std::move(channels)),
-      instances_(std::move(instances)),
-      lights_(std::move(lights)) {}
+Animations::Animations(const NodeTree& tree, std::vector<Channel> channels,
+                       const std::vector<PlacedInstance>& instances, const std::vector<PlacedLight>& lights)
+    : channels_(std::move(channels)) {
+  std::vector<bool> is_animated(tree.size(), false);
+  for (const Channel& channel : channels_) {
+    is_animated[channel.node] = true;
+    duration_s_ = std::max(duration_s_, channel.time_s.back());
+  }
+  const std::vector<std::size_t> moving_of = add_moving_nodes(tree, is_animated);
+  for (Channel& channel : channels_) channel.node = moving_of[channel.node];
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (moving_of[instances[i].node] == kRests) continue;
+    instances_.push_back({static_cast<std::uint32_t>(i), instances[i]});
+    instances_.back().placed.node = moving_of[instances[i].node];
+  }
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (moving_of[lights[i].node] == kRests) continue;
+    lights_.push_back({static_cast<std::uint32_t>(i), lights[i]});
+    lights_.back().placed.node = moving_of[lights[i].node];
+  }
+}
 
-double Animations::duration_s() const {
-  double duration = 0;
-  for (const Channel& channel : channels_) duration = std::max(duration, channel.time_s.back());
-  return duration;
+// Returns the index in moving_ of every node of the tree.
+std::vector<std::size_t> Animations::add_moving_nodes(const NodeTree& tree, const std::vector<bool>& is_animated) {
+  const std::vector<glm::dmat4> world_from_node = world_from_nodes(tree);
+  std::vector<std::size_t> moving_of(tree.size(), kRests);
+  for (std::size_t node = 0; node < tree.size(); ++node) {
+    const bool has_parent = tree[node].parent >= 0;
+    const auto parent = static_cast<std::size_t>(tree[node].parent);
+    const bool parent_moves = has_parent && moving_of[parent] != kRests;
+    if (!is_animated[node] && !parent_moves) continue;
+    moving_of[node] = moving_.size();
+    MovingNode moving{
+        .node = {.parent = parent_moves ? static_cast<int>(moving_of[parent]) : -1, .placement = tree[node].placement},
+        .world_from_parent = {}};
+    if (has_parent && !parent_moves) moving.world_from_parent = world_from_node[parent];
+    moving_.push_back(std::move(moving));
+  }
+  return moving_of;
 }
 
 std::vector<glm::dmat4> Animations::world_from_nodes_at(double seconds) const {
-  NodeTree moved = tree_;
-  for (const Channel& channel : channels_) apply(channel, seconds, moved[channel.node].placement);
-  return world_from_nodes(moved);
-}
-
-std::vector<proto::Instance> Animations::at(double seconds) const {
-  std::vector<proto::Instance> result;
-  if (empty()) return result;
-  const std::vector<glm::dmat4> world_from_node = world_from_nodes_at(seconds);
-  for (const PlacedInstance& placed : instances_) {
-    const glm::dmat4& world_from_mesh = world_from_node[placed.node];
-    const bool mirrored = !placed.mirrored_mesh.empty() && mirrors(world_from_mesh);
-    proto::Instance& instance = result.emplace_back();
-    instance.set_mesh(mirrored ? placed.mirrored_mesh : placed.mesh);
-    instance.set_material(placed.material);
-    set_world_from_mesh(instance, world_from_mesh);
+  std::vector<Placement> placements;
+  placements.reserve(moving_.size());
+  for (const MovingNode& moving : moving_) placements.push_back(moving.node.placement);
+  for (const Channel& channel : channels_) apply(channel, seconds, placements[channel.node]);
+  std::vector<glm::dmat4> result;
+  result.reserve(moving_.size());
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const glm::dmat4 parent_from_node = placements[i].parent_from_node();
+    const MovingNode& moving = moving_[i];
+    if (moving.node.parent >= 0) {
+      result.push_back(result[static_cast<std::size_t>(moving.node.parent)] * parent_from_node);
+    } else {
+      result.push_back(moving.world_from_parent ? *moving.world_from_parent * parent_from_node : parent_from_node);
+    }
   }
   return result;
 }
 
-std::vector<proto::Light> Animations::lights_at(double seconds) const {
-  std::vector<proto::Light> result;
-  if (empty()) return result;
+Moved Animations::at(double seconds) const {
+  Moved result;
   const std::vector<glm::dmat4> world_from_node = world_from_nodes_at(seconds);
-  for (const PlacedLight& placed : lights_)
-    result.push_back(light_in_world(placed.light, world_from_node[placed.node]));
+  for (const auto& [index, placed] : instances_) {
+    const glm::dmat4& world_from_mesh = world_from_node[placed.node];
+    const bool mirrored = !placed.mirrored_mesh.empty() && mirrors(world_from_mesh);
+    proto::MovedInstance& moved = result.instances.emplace_back();
+    moved.set_index(index);
+    moved.set_mesh(mirrored ? placed.mirrored_mesh : placed.mesh);
+    const auto rows = upper_rows(world_from_mesh);
+    moved.mutable_world_from_mesh()->Assign(rows.begin(), rows.end());
+  }
+  for (const auto& [index, placed] : lights_) {
+    proto::MovedLight& moved = result.lights.emplace_back();
+    moved.set_index(index);
+    *moved.mutable_light() = light_in_world(placed.light, world_from_node[placed.node]);
+  }
   return result;
 }
 

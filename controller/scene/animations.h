@@ -1,7 +1,8 @@
-// How a scene moves: keyframes of nodes' placements, and the instances and lights at any time.
+// How a scene moves: keyframes of nodes' placements, and where what moves is at any time.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,34 +40,52 @@ struct PlacedLight {
   proto::Light light;  // position and direction are not set
 };
 
+// What stands on nodes that move, at some time. Meshes are always named.
+struct Moved {
+  std::vector<proto::MovedInstance> instances;
+  std::vector<proto::MovedLight> lights;
+};
+
 class Animations {
  public:
   Animations() = default;
-  Animations(NodeTree tree, std::vector<Channel> channels, std::vector<PlacedInstance> instances,
-             std::vector<PlacedLight> lights);
+  // `instances` and `lights` are in the order of those of the proto::Scene. Nodes without a channel that have no node
+  // with one above them, and what stands on them, are looked at here and never again.
+  Animations(const NodeTree& tree, std::vector<Channel> channels, const std::vector<PlacedInstance>& instances,
+             const std::vector<PlacedLight>& lights);
 
   // Nothing moves.
   bool empty() const { return channels_.empty(); }
 
   std::size_t channel_count() const { return channels_.size(); }
+  std::size_t moving_node_count() const { return moving_.size(); }
 
   // Time of the last key of all channels. Whoever wants a loop takes the time modulo this.
-  double duration_s() const;
+  double duration_s() const { return duration_s_; }
 
-  // All instances of the scene at a time, in the order of proto::Scene.instance. Empty if nothing moves.
-  std::vector<proto::Instance> at(double seconds) const;
-
-  // Likewise the lights that stand on nodes, in the order of proto::Scene.light. Empty if nothing moves or none stands
-  // on a node.
-  std::vector<proto::Light> lights_at(double seconds) const;
+  // All that moves, by ascending index.
+  Moved at(double seconds) const;
 
  private:
+  struct MovingNode {
+    Node node;                                    // its parent: in moving_
+    std::optional<glm::dmat4> world_from_parent;  // of a parent that rests
+  };
+  template <class T>
+  struct Indexed {
+    std::uint32_t index;  // in the proto::Scene
+    T placed;             // its node: in moving_
+  };
+
+  std::vector<std::size_t> add_moving_nodes(const NodeTree& tree, const std::vector<bool>& is_animated);
+  // Of moving_.
   std::vector<glm::dmat4> world_from_nodes_at(double seconds) const;
 
-  NodeTree tree_;
-  std::vector<Channel> channels_;
-  std::vector<PlacedInstance> instances_;
-  std::vector<PlacedLight> lights_;
+  std::vector<Channel> channels_;   // their nodes: in moving_
+  std::vector<MovingNode> moving_;  // parents before their children
+  std::vector<Indexed<PlacedInstance>> instances_;
+  std::vector<Indexed<PlacedLight>> lights_;
+  double duration_s_ = 0;
 };
 
 // A light of a node as it stands in the world: at the node's origin, shining along its -z.

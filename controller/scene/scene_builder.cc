@@ -34,11 +34,17 @@ proto::Light white_light(proto::Light::Kind kind, float level) {
 
 bool mirrors(const glm::dmat4& world_from_mesh) { return glm::determinant(glm::dmat3(world_from_mesh)) < 0; }
 
-void set_world_from_mesh(proto::Instance& instance, const glm::dmat4& world_from_mesh) {
-  instance.clear_world_from_mesh();
+std::array<double, 12> upper_rows(const glm::dmat4& matrix) {
+  std::array<double, 12> rows{};
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) instance.add_world_from_mesh(world_from_mesh[column][row]);
+    for (int column = 0; column < 4; ++column) rows[static_cast<std::size_t>(4 * row + column)] = matrix[column][row];
   }
+  return rows;
+}
+
+void set_world_from_mesh(proto::Instance& instance, const glm::dmat4& world_from_mesh) {
+  const std::array<double, 12> rows = upper_rows(world_from_mesh);
+  instance.mutable_world_from_mesh()->Assign(rows.begin(), rows.end());
 }
 
 glm::dmat4 matrix_of(const proto::Instance& instance) {

@@ -1,6 +1,7 @@
 // Puts a scene together: assets by content hash (each once), instances, materials, lights, bounds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <string>
@@ -50,6 +51,7 @@ class SceneBuilder {
 bool mirrors(const glm::dmat4& world_from_mesh);
 
 // The 12 numbers of proto::Instance: upper three rows, row-major.
+std::array<double, 12> upper_rows(const glm::dmat4& matrix);
 void set_world_from_mesh(proto::Instance& instance, const glm::dmat4& world_from_mesh);
 
 // Back again, with the last row 0 0 0 1.

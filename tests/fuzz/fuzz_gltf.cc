@@ -46,9 +46,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   LFD_CHECK(std::isfinite(duration_s) && duration_s >= 0, "an animation takes some time");
   for (const double time_s : {0.0, duration_s / 3, duration_s}) {
     lfd::proto::Scene moved = scene->data.scene;
-    const auto instances = scene->animations.at(time_s);
-    LFD_CHECK(instances.size() == static_cast<std::size_t>(moved.instance_size()), "as many as at rest");
-    moved.mutable_instance()->Assign(instances.begin(), instances.end());
+    for (const auto& one : scene->animations.at(time_s).instances) {
+      LFD_CHECK(one.index() < static_cast<std::uint32_t>(moved.instance_size()), "what moves is there");
+      lfd::proto::Instance& instance = *moved.mutable_instance(static_cast<int>(one.index()));
+      instance.set_mesh(one.mesh());
+      *instance.mutable_world_from_mesh() = one.world_from_mesh();
+    }
+    for (const auto& one : scene->animations.at(time_s).lights) {
+      LFD_CHECK(one.index() < static_cast<std::uint32_t>(moved.light_size()), "what moves is there");
+      *moved.mutable_light(static_cast<int>(one.index())) = one.light();
+    }
     check_instances(moved.instance(), scene->data);
     const lfd::Status finite = lfd::check_numbers(moved);
     LFD_CHECK(finite, finite.error().message());

@@ -74,8 +74,11 @@ std::string show_of(bool with_assets, bool ends) {
   show.frame(3);
   proto::Update update;
   update.mutable_render()->mutable_ao()->set_samples(4);
-  *update.add_instance() = plane.scene.instance(0);
-  update.mutable_instance(0)->set_world_from_mesh(3, 0.5);
+  proto::MovedInstance& moved = *update.add_moved_instance();
+  moved.set_mesh(plane.scene.instance(0).mesh());
+  *moved.mutable_world_from_mesh() = plane.scene.instance(0).world_from_mesh();
+  moved.set_world_from_mesh(3, 0.5);
+  *update.add_moved_light()->mutable_light() = plane.scene.light(0);
   show.update(update);
   show.frame(4);
   show.asset("two pieces", 5);

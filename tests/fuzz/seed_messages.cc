@@ -112,8 +112,12 @@ std::vector<Step> steps() {
     e.mutable_update()->set_buffers(3);
   });
   add("update_instances", [](auto& e) {
+    const SceneData plane = testing_support::made_data("plane");
     e.mutable_update()->set_sequence(3);
-    *e.mutable_update()->add_instance() = testing_support::made_data("plane").scene.instance(0);
+    proto::MovedInstance& moved = *e.mutable_update()->add_moved_instance();
+    moved.set_mesh(plane.scene.instance(0).mesh());
+    *moved.mutable_world_from_mesh() = plane.scene.instance(0).world_from_mesh();
+    *e.mutable_update()->add_moved_light()->mutable_light() = plane.scene.light(0);
   });
   add("snapshot", [](auto& e) {
     proto::State& state = *e.mutable_snapshot()->mutable_state();

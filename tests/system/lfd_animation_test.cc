@@ -126,6 +126,7 @@ TEST_F(LfdAnimation, ChangesEveryPictureAndNotTheRegionOfInterest) {
   for (int number = 1; number < kFrames; ++number) {
     EXPECT_EQ(frame(number).at("physical_from_world"), frame(0).at("physical_from_world"));
     EXPECT_NE(state_of(number), state_of(number - 1));
+    for (const auto& node : frame(number).at("nodes")) EXPECT_EQ(node.at("state_hash"), state_of(number));
     for (int module = 0; module < kModules; ++module)
       EXPECT_FALSE(color(number, module) == color(number - 1, module)) << "frame " << number << ", module " << module;
   }

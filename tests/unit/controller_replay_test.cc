@@ -109,6 +109,47 @@ TEST(Replay, EachFrameComesWithAllThatChangedBeforeIt) {
   EXPECT_EQ(replay.summary(), "4 frames replayed; each of 4 node's pictures was of the recorded state");
 }
 
+// Updates between two frames come as one, which names what one of them moved.
+TEST(Replay, WhatMovedComesByItself) {
+  RecordedShow show(display());
+  SceneData data = made_data("corner");
+  ASSERT_GE(data.scene.light_size(), 2);
+  for (int i = 0; i < 20; ++i) *data.scene.add_instance() = data.scene.instance(0);
+  show.snapshot(state_of(data));
+  show.assets(data.assets);
+  show.frame(1);
+  for (const auto& [index, x] : {std::pair{7U, 1.0}, {3U, 2.0}, {7U, 3.0}}) {
+    proto::Update update;
+    proto::MovedInstance& moved = *update.add_moved_instance();
+    moved.set_index(index);
+    *moved.mutable_world_from_mesh() = data.scene.instance(0).world_from_mesh();
+    moved.set_world_from_mesh(3, x);
+    update.add_moved_light()->set_index(1);
+    *update.mutable_moved_light(0)->mutable_light() = data.scene.light(0);
+    show.update(update);
+  }
+  show.frame(2);
+  show.frame(3);
+  Replay replay = unwrapped(replay_of(show));
+  Stage stage = unwrapped(Stage::of(deployment()));
+  std::vector<proto::Update> changes;
+  while (replay.next() != nullptr) {
+    if (auto change = replay.take_change()) {
+      const auto shown = stage.show_recorded(std::move(change->update), std::move(change->assets));
+      ASSERT_TRUE(shown) << shown.error().message();
+      changes.push_back(*shown);
+    }
+    EXPECT_EQ(stage.store().hash(), replay.next()->state_hash);
+    ASSERT_TRUE(replay.begun(Clock::time_point()));
+  }
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_FALSE(changes[1].has_scene());
+  ASSERT_EQ(changes[1].moved_instance_size(), 2);
+  EXPECT_EQ(changes[1].moved_instance(0).index(), 3U);
+  EXPECT_EQ(changes[1].moved_instance(1).world_from_mesh(3), 3.0);
+  EXPECT_EQ(changes[1].moved_light_size(), 1);
+}
+
 TEST(Replay, FramesAreDueAtTheRecordedPaceTimesTheSpeed) {
   for (const double speed : {1.0, 2.0}) {
     Replay replay = unwrapped(replay_of(small_show(), {.speed = speed}));
@@ -185,6 +226,13 @@ TEST(Replay, UpdatesThatDoNotFitAreErrors) {
   state.mutable_scene()->add_light()->add_color(-1);
   light.snapshot(state);
   EXPECT_THAT(replay_of(light).error().message(), HasSubstr("color: -1"));
+  RecordedShow dark(display());
+  dark.snapshot(state_of(made_data("plane")));
+  proto::Update update;
+  update.add_moved_light()->set_index(1);
+  update.mutable_moved_light(0)->mutable_light()->add_color(-1);
+  dark.update(update);
+  EXPECT_THAT(replay_of(dark).error().message(), HasSubstr("light 1: color: -1"));
   RecordedShow halves(display());
   halves.snapshot(proto::State());
   EXPECT_THAT(replay_of(halves).error().message(), HasSubstr("a state that is not whole"));

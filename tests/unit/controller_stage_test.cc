@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "proto/state.h"
 #include "tests/support/unwrapped.h"
 #include "tests/unit/gltf_maker.h"
 
@@ -63,7 +64,8 @@ TEST(StageAnimate, PlacesWhatMovesByTheFramesTimeRoundAndRound) {
                                  {8, 0.0},
                                  {12, 2.0},
                                  {8'000'000'001, 0.5}}) {
-    ASSERT_TRUE(stage.animate(frame));
+    const bool stands_there = x_of(stage.store().state().scene()) == x;
+    EXPECT_EQ(stage.animate(frame).has_value(), !stands_there) << "frame " << frame;
     EXPECT_EQ(x_of(stage.store().state().scene()), x) << "frame " << frame;
   }
 }
@@ -75,8 +77,9 @@ TEST(StageAnimate, UpdatesPlacesAlone) {
   const auto update = stage.animate(3);
   ASSERT_TRUE(update);
   EXPECT_EQ(update->sequence(), before.sequence() + 1);
-  ASSERT_EQ(update->instance_size(), 1);
-  EXPECT_EQ(update->instance(0).world_from_mesh(3), 1.5);
+  ASSERT_EQ(update->moved_instance_size(), 1);
+  EXPECT_EQ(update->moved_instance(0).world_from_mesh(3), 1.5);
+  EXPECT_EQ(update->moved_instance(0).mesh(), "") << "it is the same as before";
   EXPECT_FALSE(update->has_scene());
   EXPECT_FALSE(update->has_roi());
   EXPECT_FALSE(update->has_render());
@@ -104,6 +107,8 @@ TEST(StageAnimate, TakesLightsAlongWithTheirNodes) {
   Stage stage = stage_with(maker);
   const auto update = stage.animate(1);
   ASSERT_TRUE(update);
+  EXPECT_FALSE(update->has_scene());
+  EXPECT_EQ(update->moved_light_size(), 1);
   const proto::Scene& scene = stage.store().state().scene();
   ASSERT_EQ(scene.light_size(), 1);
   EXPECT_EQ(scene.light(0).position().x(), 0.5);
@@ -115,8 +120,84 @@ TEST(StageAnimate, StandsStillWithoutADuration) {
   maker.animate("translation", "STEP", {0}, {3, 0, 0});
   Stage stage = stage_with(maker);
   for (const std::uint64_t frame : {0, 1, 7}) {
-    ASSERT_TRUE(stage.animate(frame));
+    EXPECT_EQ(stage.animate(frame).has_value(), frame == 0) << "it is there already";
     EXPECT_EQ(x_of(stage.store().state().scene()), 3);
+  }
+}
+
+TEST(StageAnimate, NamesTheMeshWhereItIsAnother) {
+  GltfMaker maker = GltfMaker::triangle();
+  maker.animate("scale", "LINEAR", {0, 1, 2}, {1, 1, 1, -1, 1, 1, 1, 1, 1});
+  Stage stage = stage_with(maker);
+  const std::string at_rest = stage.store().state().scene().instance(0).mesh();
+  const auto mesh_in = [&](std::uint64_t frame) { return stage.animate(frame)->moved_instance(0).mesh(); };
+  EXPECT_EQ(mesh_in(1), "");
+  const std::string mirrored = mesh_in(3);
+  EXPECT_NE(mirrored, "");
+  EXPECT_NE(mirrored, at_rest);
+  EXPECT_EQ(stage.store().state().scene().instance(0).mesh(), mirrored);
+  EXPECT_EQ(mesh_in(4), "");
+  EXPECT_EQ(mesh_in(7), at_rest);
+}
+
+// What moving() has, among so many triangles and lights that rest.
+GltfMaker moving_among(int resting) {
+  GltfMaker maker = moving();
+  maker.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  maker.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  for (int i = 1; i <= resting; ++i) {
+    test::json& node = maker.root["nodes"][static_cast<std::size_t>(i)];
+    node = {{"mesh", 0}, {"translation", {i % 100, i / 100, 1}}};
+    if (i % 10 == 0) node["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    maker.root["scenes"][0]["nodes"].push_back(i);
+  }
+  return maker;
+}
+
+// What one frame, and one change of the region of interest, publish and hash. Where things stand takes as many bytes
+// everywhere: the numbers that do not differ in length are of the same frame and index.
+struct Effort {
+  std::size_t frame_bytes, roi_bytes;
+  std::uint64_t frame_hashed, roi_hashed;
+
+  bool operator==(const Effort&) const = default;
+};
+
+Effort effort_among(int resting) {
+  Stage stage = stage_with(moving_among(resting));
+  EXPECT_EQ(stage.store().state().scene().instance_size(), resting + 1);
+  const auto hashed = [&](const auto& act) {
+    const std::uint64_t before = stage.store().hashed_bytes();
+    act();
+    return stage.store().hashed_bytes() - before;
+  };
+  Effort effort{};
+  proto::RegionOfInterest roi;
+  for (auto* v : {roi.mutable_world_centre(), roi.mutable_world_size(), roi.mutable_physical_size()}) {
+    v->set_x(1);
+    v->set_y(1);
+    v->set_z(1);
+  }
+  effort.frame_hashed = hashed([&] { effort.frame_bytes = stage.animate(3)->ByteSizeLong(); });
+  effort.roi_hashed = hashed([&] { effort.roi_bytes = unwrapped(stage.set_roi(roi)).ByteSizeLong(); });
+  return effort;
+}
+
+TEST(StageAnimate, CostsWhatMovesHoweverMuchRests) {
+  const Effort little = effort_among(1);
+  EXPECT_GT(little.frame_hashed, 0U);
+  EXPECT_LT(little.frame_bytes, 250U) << "a place is 12 numbers of 8 bytes, a light less";
+  EXPECT_EQ(effort_among(10'000), little);
+}
+
+TEST(StageAnimate, WhoFollowsComesToTheSameHash) {
+  Stage stage = stage_with(moving_among(20));
+  proto::State follower = stage.store().state();
+  for (const std::uint64_t frame : {1, 2, 5, 3, 9}) {
+    const auto update = stage.animate(frame);
+    ASSERT_TRUE(update);
+    ASSERT_TRUE(apply_update(follower, *update));
+    EXPECT_EQ(state_hash(follower), stage.store().hash());
   }
 }
 

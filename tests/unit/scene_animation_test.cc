@@ -20,13 +20,13 @@ GltfMaker moving(const std::string& path, const std::string& interpolation, cons
 }
 
 double number(const LoadedScene& scene, double seconds, int which) {
-  return scene.animations.at(seconds).at(0).world_from_mesh(which);
+  return scene.animations.at(seconds).instances.at(0).world_from_mesh(which);
 }
 
 TEST(SceneAnimation, WithoutAnyNothingMoves) {
   const LoadedScene scene = loaded(GltfMaker::triangle());
   EXPECT_TRUE(scene.animations.empty());
-  EXPECT_TRUE(scene.animations.at(1).empty());
+  EXPECT_TRUE(scene.animations.at(1).instances.empty());
 }
 
 TEST(SceneAnimation, LinearTranslationAndItsEnds) {
@@ -82,10 +82,43 @@ TEST(SceneAnimation, ChildrenMoveWithTheirParents) {
   EXPECT_EQ(number(scene, 0.5, 7), 7);
 }
 
+// Node 0 rests with node 1 below it, which moves 2 m along x in a second, with node 2 below that; node 3 rests.
+GltfMaker moving_in_the_middle() {
+  GltfMaker maker = moving("translation", "LINEAR", {0, 1}, {0, 0, 0, 2, 0, 0});
+  maker.root["animations"][0]["channels"][0]["target"]["node"] = 1;
+  maker.root["nodes"] = {{{"mesh", 0}, {"children", {1}}, {"translation", {0, 0, 5}}},
+                         {{"mesh", 0}, {"children", {2}}},
+                         {{"mesh", 0}, {"translation", {0, 7, 0}}},
+                         {{"mesh", 0}}};
+  maker.root["scenes"][0]["nodes"] = {3, 0};
+  maker.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  for (const int node : {3, 2}) maker.root["nodes"][node]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  return maker;
+}
+
+TEST(SceneAnimation, OnlyNodesWithAMovingNodeAboveThemAreLookedAt) {
+  const LoadedScene scene = loaded(moving_in_the_middle());
+  EXPECT_EQ(scene.animations.moving_node_count(), 2U);
+  const scene::Moved moved = scene.animations.at(0.5);
+  ASSERT_EQ(moved.instances.size(), 2U);
+  for (const proto::MovedInstance& one : moved.instances) {
+    const proto::Instance& at_rest = scene.data.scene.instance(static_cast<int>(one.index()));
+    EXPECT_EQ(one.world_from_mesh(3), at_rest.world_from_mesh(3) + 1);
+    EXPECT_EQ(one.world_from_mesh(7), at_rest.world_from_mesh(7));
+    EXPECT_EQ(one.world_from_mesh(11), 5) << "of the parent that rests";
+  }
+  EXPECT_NE(moved.instances[0].world_from_mesh(7), moved.instances[1].world_from_mesh(7));
+  ASSERT_EQ(moved.lights.size(), 1U);
+  const proto::Light& light = moved.lights[0].light();
+  EXPECT_EQ(light.position().x(), 1);
+  EXPECT_EQ(light.position().y(), 7);
+  EXPECT_EQ(scene.data.scene.light(static_cast<int>(moved.lights[0].index())).position().y(), 7);
+}
+
 TEST(SceneAnimation, ScaleThroughZeroChangesToTheMirroredMesh) {
   const LoadedScene scene = loaded(moving("scale", "LINEAR", {0, 2}, {1, 1, 1, -1, 1, 1}));
-  const std::string before = scene.animations.at(0.5).at(0).mesh();
-  const std::string after = scene.animations.at(1.5).at(0).mesh();
+  const std::string before = scene.animations.at(0.5).instances.at(0).mesh();
+  const std::string after = scene.animations.at(1.5).instances.at(0).mesh();
   EXPECT_NE(before, after);
   EXPECT_TRUE(scene.data.assets.contains(before));
   EXPECT_TRUE(scene.data.assets.contains(after));
@@ -96,7 +129,7 @@ TEST(SceneAnimation, LightsMoveWithTheirNodes) {
   maker.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   maker.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
   const LoadedScene scene = loaded(maker);
-  EXPECT_EQ(scene.animations.lights_at(0.5).at(0).position().x(), 1);
+  EXPECT_EQ(scene.animations.at(0.5).lights.at(0).light().position().x(), 1);
 }
 
 TEST(SceneAnimation, RestIsWhatTheNodesSay) {

@@ -45,8 +45,7 @@ class Loader {
     LoadedScene result;
     LFD_TRY(result.data, std::move(scene_).finish());
     if (!channels_.empty()) {
-      result.animations =
-          Animations(std::move(nodes_.tree), std::move(channels_), std::move(instances_), std::move(lights_));
+      result.animations = Animations(nodes_.tree, std::move(channels_), instances_, lights_);
     }
     if (untextured_ > 0) {
       warnings_.push_back(fmt::format("{} primitives are drawn without the texture of their material (the first is {})",
