@@ -16,6 +16,11 @@ struct Arguments {
   std::filesystem::path out;
 };
 
+int end(const bench::ClusterTable& table) {
+  const int printed = end_of_output();
+  return bench::missed_bound(table).empty() ? printed : kExitFailed;
+}
+
 int bench_cluster(const Arguments& a) {
   StopSignals signals;
   start_log("lfd", "warn");
@@ -29,13 +34,13 @@ int bench_cluster(const Arguments& a) {
   });
   if (!table) return fail(table.error());
   std::cout << bench::text_of(*table);
-  if (a.out.empty()) return end_of_output();
+  if (a.out.empty()) return end(*table);
   for (const auto& [name, content] :
        {std::pair{"cluster.md", bench::text_of(*table)}, std::pair{"cluster.csv", bench::csv_of(*table)},
         std::pair{"cluster.svg", bench::svg_of(*table)}}) {
     if (const Status written = write_file(a.out / name, content); !written) return fail(written.error());
   }
-  return end_of_output();
+  return end(*table);
 }
 
 }  // namespace
@@ -44,7 +49,9 @@ void add_bench_cluster(CLI::App& bench, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
   CLI::App* cluster = add_command(
-      bench, "cluster", "Run virtual clusters of ever more nodes: latency, and what a frame costs the controller",
+      bench, "cluster",
+      "Run virtual clusters of ever more nodes: latency, and what a frame costs the controller; exit code 1 where that "
+      "grows with what rests in the scene, the last line is the verdict",
       exit_code, [arguments] { return bench_cluster(*arguments); });
   cluster->add_option("--nodes", a.options.nodes, "Numbers of nodes")
       ->delimiter(',')
@@ -61,6 +68,16 @@ void add_bench_cluster(CLI::App& bench, int& exit_code) {
                    "Made scenes (lfd-scene list); all but the first are shown to one cluster only")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->capture_default_str();
+  cluster
+      ->add_option("--resting", a.options.resting,
+                   "Numbers of instances at rest of scenes in which a few move, shown to one cluster only")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(whole_number_within(0, 100000))
+      ->capture_default_str();
+  cluster->add_option("--crowd-frames", a.options.crowd_frames, "How many frames of each of those scenes")
+      ->check(whole_number_within(10, 10000))
       ->capture_default_str();
   cluster->add_option("--frames", a.options.frames, "How many frames of each cluster")
       ->check(whole_number_within(10, 10000))

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/temporary_folder.h"
+#include "bench/cluster/crowd.h"
 #include "bench/common/daemons.h"
 #include "bench/common/free_endpoint.h"
 #include "bench/common/process_facts.h"
@@ -38,10 +39,13 @@ Status write_files(const TemporaryFolder& folder, const ClusterRow& row, ImageSi
   LFD_TRY(DisplayCalibration display, make_display("c80", row.modules));
   display.image = image;
   LFD_TRY_STATUS(save_calibration(folder.path() / "display.textproto", display));
+  if (row.resting) LFD_TRY_STATUS(write_crowd(folder.path(), *row.resting));
+  const std::string scene =
+      row.resting ? "file: \"crowd.gltf\"" : fmt::format("made {{ name: \"{}\" seed: 1 }}", row.scene);
   std::string text = fmt::format(
-      "name: \"cluster\" display: \"display.textproto\" scene {{ made {{ name: \"{}\" seed: 1 }} }} sink: DISPLAY\n"
+      "name: \"cluster\" display: \"display.textproto\" scene {{ {} }} sink: DISPLAY\n"
       "accept_calibration: true addresses {{ control: \"{}\" }}\n",
-      row.scene, control);
+      scene, control);
   for (int node = 0; node < row.nodes; ++node) text += fmt::format("node {{ name: \"node-{}\" }}\n", node);
   return write_file(folder.path() / "cluster.textproto", text);
 }
@@ -77,8 +81,9 @@ Result<proto::Reply> ask_frames(ControlClient& client, int count) {
   return all;
 }
 
-Result<double> scene_bytes(const std::string& name) {
-  LFD_TRY(const LoadedScene scene, scene::make_scene(name, 1));
+Result<double> scene_bytes(const TemporaryFolder& folder, const ClusterRow& row) {
+  LFD_TRY(const LoadedScene scene,
+          row.resting ? load_scene(folder.path() / "crowd.gltf") : scene::make_scene(row.scene, 1));
   double bytes = 0;
   for (const auto& [hash, asset] : scene.data.assets) bytes += static_cast<double>(asset->size());
   return bytes;
@@ -129,7 +134,7 @@ Result<ClusterRow> measure(ClusterRow row, const ClusterBenchOptions& options, S
   const TemporaryFolder folder("lfd-cluster");
   const std::string control = free_endpoint();
   LFD_TRY_STATUS(write_files(folder, row, options.image, control));
-  LFD_TRY(row.scene_bytes, scene_bytes(row.scene));
+  LFD_TRY(row.scene_bytes, scene_bytes(folder, row));
   Daemons daemons(own_folder(), folder.path() / "cluster.textproto", {});
   LFD_TRY(Process* const controller, daemons.start("controller", {.more = {"--idle", "--log-level", "warn"}}));
   LFD_TRY_STATUS(daemons.start("display", {.more = {"--controller", control}}));
@@ -139,7 +144,7 @@ Result<ClusterRow> measure(ClusterRow row, const ClusterBenchOptions& options, S
   LFD_TRY_STATUS(ask_frames(client, kWarmUp));
   if (signals.take()) return Error("ended by a signal");
   LFD_TRY(const Sample before, sample(client, controller->id()));
-  LFD_TRY(const proto::Reply frames, ask_frames(client, options.frames));
+  LFD_TRY(const proto::Reply frames, ask_frames(client, row.resting ? options.crowd_frames : options.frames));
   LFD_TRY(const Sample after, sample(client, controller->id()));
   std::this_thread::sleep_for(kRest);
   LFD_TRY(const Sample rested, sample(client, controller->id()));
@@ -168,21 +173,27 @@ Line ClusterTable::controller_line(int modules) const {
 
 Result<ClusterTable> cluster_bench(const ClusterBenchOptions& options, StopSignals& signals,
                                    const std::function<void(const ClusterRow&)>& progress) {
-  ClusterTable table{.options = options, .rows = {}, .by_scene = {}};
-  const auto add = [&](std::vector<ClusterRow>& rows, int nodes, int modules, const std::string& scene) -> Status {
-    auto row = measure({.nodes = nodes, .modules = modules, .scene = scene}, options, signals);
-    if (!row) return row.error().within(fmt::format("{} nodes, {} modules, {}", nodes, modules, scene));
+  ClusterTable table{.options = options, .rows = {}, .by_scene = {}, .by_rest = {}};
+  const auto add = [&](std::vector<ClusterRow>& rows, ClusterRow what) -> Status {
+    auto row = measure(what, options, signals);
+    if (!row) return row.error().within(fmt::format("{} nodes, {} modules, {}", what.nodes, what.modules, what.scene));
     progress(*row);
     rows.push_back(*std::move(row));
     return {};
   };
   for (const int modules : options.modules) {
-    for (const int nodes : options.nodes) LFD_TRY_STATUS(add(table.rows, nodes, modules, options.scenes.front()));
+    for (const int nodes : options.nodes)
+      LFD_TRY_STATUS(add(table.rows, {.nodes = nodes, .modules = modules, .scene = options.scenes.front()}));
   }
-  if (options.scenes.size() < 2) return table;
-  const std::size_t middle = options.nodes.size() / 2;
-  for (const std::string& scene : options.scenes)
-    LFD_TRY_STATUS(add(table.by_scene, options.nodes[middle], options.modules.front(), scene));
+  const int nodes = options.nodes[options.nodes.size() / 2], modules = options.modules.front();
+  for (const std::string& scene : options.scenes) {
+    if (options.scenes.size() < 2) break;
+    LFD_TRY_STATUS(add(table.by_scene, {.nodes = nodes, .modules = modules, .scene = scene}));
+  }
+  for (const int resting : options.resting) {
+    const std::string scene = fmt::format("{} at rest, {} move", resting, kCrowdMoving);
+    LFD_TRY_STATUS(add(table.by_rest, {.nodes = nodes, .modules = modules, .scene = scene, .resting = resting}));
+  }
   return table;
 }
 

@@ -1,4 +1,7 @@
 // The table of clusters as Markdown and CSV.
+#include <algorithm>
+#include <utility>
+
 #include "base/log.h"
 #include "bench/cluster/cluster_bench.h"
 #include "bench/common/csv.h"
@@ -32,10 +35,31 @@ std::string text_of(const ClusterTable& table) {
                         line.constant, line.per_node);
   }
   text += "\n";
-  if (table.by_scene.empty()) return text;
-  text += std::string("\n") + kHead;
-  for (const ClusterRow& row : table.by_scene) text += line_of(row);
-  return text;
+  for (const auto* rows : {&table.by_scene, &table.by_rest}) {
+    if (rows->empty()) continue;
+    text += std::string("\n") + kHead;
+    for (const ClusterRow& row : *rows) text += line_of(row);
+  }
+  if (table.by_rest.size() < 2) return text;
+  const std::string missed = missed_bound(table);
+  return text + (missed.empty()
+                     ? fmt::format("\nkept: what rests makes a frame cost the controller at most {} times as much\n",
+                                   kMostGrowth)
+                     : fmt::format("\nmissed: {}\n", missed));
+}
+
+std::string missed_bound(const ClusterTable& table) {
+  if (table.by_rest.size() < 2) return "";
+  const auto [few, many] = std::ranges::minmax_element(table.by_rest, {}, &ClusterRow::resting);
+  for (const auto& [what, cost] :
+       {std::pair{"us of the controller", &ClusterRow::controller_us}, {"bytes published", &ClusterRow::state_bytes}}) {
+    if ((*many).*cost <= kMostGrowth * ((*few).*cost)) continue;
+    return fmt::format(
+        "a frame takes {:.0f} {} where {} instances rest, {:.0f} where {} do; at most {} times as much "
+        "is wanted",
+        (*many).*cost, what, *many->resting, (*few).*cost, *few->resting, kMostGrowth);
+  }
+  return "";
 }
 
 std::string csv_of(const ClusterTable& table) {
@@ -50,6 +74,7 @@ std::string csv_of(const ClusterTable& table) {
   };
   for (const ClusterRow& row : table.rows) add("nodes", row);
   for (const ClusterRow& row : table.by_scene) add("scenes", row);
+  for (const ClusterRow& row : table.by_rest) add("rest", row);
   return csv;
 }
 

@@ -92,16 +92,19 @@ TEST(LfdBench, AoSaysWhatWasMeant) {
 TEST(LfdBench, ClusterLeavesATableAndAPlot) {
   const Workbench bench;
   const auto out = bench.folder() / "cluster";
-  const auto lfd = start_program("lfd", {"bench", "cluster", "--nodes", "1,2", "--modules", "4", "--frames", "20",
-                                         "--scene", "plane,ribbed-shell", "--out", out.string()});
+  const auto lfd =
+      start_program("lfd", {"bench", "cluster", "--nodes", "1,2", "--modules", "4", "--frames", "20", "--scene",
+                            "plane,ribbed-shell", "--resting", "1,100", "--crowd-frames", "20", "--out", out.string()});
   const auto exit = lfd->wait(kClusterPatience);
-  ASSERT_TRUE(exit && exit->succeeded()) << testing::PrintToString(lfd->lines());
+  // On a busy machine so few frames say nothing of the bound.
+  ASSERT_TRUE(exit && exit->signal == 0 && exit->code < 2) << testing::PrintToString(lfd->lines());
   EXPECT_TRUE(std::filesystem::is_regular_file(out / "cluster.svg"));
   EXPECT_TRUE(std::filesystem::is_regular_file(out / "cluster.md"));
   const std::string csv = *read_file(out / "cluster.csv");
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 5) << csv;
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 7) << csv;
   EXPECT_THAT(csv, testing::HasSubstr("\nnodes,4,2,\"plane\","));
   EXPECT_THAT(csv, testing::HasSubstr("\nscenes,4,2,\"ribbed-shell\","));
+  EXPECT_THAT(csv, testing::HasSubstr("\nrest,4,2,\"100 at rest, 4 move\","));
 }
 
 TEST(LfdBench, AoLeavesNoFolderWhereItCouldNotBegin) {
