@@ -3,22 +3,32 @@
 
 #include <stdlib.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 #include <system_error>
 
-#include "base/check.h"
+#include "base/log.h"
 
 namespace lfd {
 
-TemporaryFolder::TemporaryFolder(std::string_view name) {
-  std::string pattern = (std::filesystem::temp_directory_path() / name).string() + "-XXXXXX";
-  LFD_CHECK(::mkdtemp(pattern.data()) != nullptr, "a temporary folder can be made");
-  path_ = pattern;
+Result<TemporaryFolder> TemporaryFolder::make(std::string_view name) {
+  std::error_code failure;
+  const std::filesystem::path all = std::filesystem::temp_directory_path(failure);
+  if (failure) {
+    const char* const told = std::getenv("TMPDIR");
+    return Error(fmt::format("TMPDIR {}: there is no such folder for temporary files", told != nullptr ? told : ""));
+  }
+  std::string pattern = (all / name).string() + "-XXXXXX";
+  if (::mkdtemp(pattern.data()) == nullptr)
+    return Error(fmt::format("TMPDIR {}: no temporary folder can be made: {}", all.string(), std::strerror(errno)));
+  return TemporaryFolder(std::filesystem::path(pattern));
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+  if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace lfd

@@ -65,7 +65,7 @@ Status view(const Arguments& arguments, StopSignals& signals) {
     const fs::path first = frame_path(arguments.frames, 0);
     return look(arguments, fs::is_directory(first) ? first : fs::path(arguments.frames), signals);
   }
-  const TemporaryFolder folder("lfd-view");
+  LFD_TRY(const TemporaryFolder folder, TemporaryFolder::make("lfd-view"));
   RenderOptions render_options;
   render_options.cluster = arguments.cluster;
   render_options.cluster.images = folder.path();

@@ -131,7 +131,7 @@ void fill(ClusterRow& row, const proto::Reply& frames, const Sample& before, con
 }
 
 Result<ClusterRow> measure(ClusterRow row, const ClusterBenchOptions& options, StopSignals& signals) {
-  const TemporaryFolder folder("lfd-cluster");
+  LFD_TRY(const TemporaryFolder folder, TemporaryFolder::make("lfd-cluster"));
   const std::string control = free_endpoint();
   LFD_TRY_STATUS(write_files(folder, row, options.image, control));
   LFD_TRY(row.scene_bytes, scene_bytes(folder, row));

@@ -61,7 +61,8 @@ Status SoakCluster::write_files() {
 }
 
 Result<std::unique_ptr<SoakCluster>> SoakCluster::start(StopSignals& signals) {
-  auto cluster = std::unique_ptr<SoakCluster>(new SoakCluster(signals));
+  LFD_TRY(TemporaryFolder folder, TemporaryFolder::make("lfd-soak"));
+  auto cluster = std::unique_ptr<SoakCluster>(new SoakCluster(signals, std::move(folder)));
   LFD_TRY_STATUS(cluster->write_files());
   cluster->daemons_ = std::make_unique<Daemons>(own_folder(), cluster->folder_.path() / "soak.textproto",
                                                 cluster->folder_.path() / "shown");

@@ -54,7 +54,7 @@ class SoakCluster {
   SoakTable counts;
 
  private:
-  explicit SoakCluster(StopSignals& signals) : signals_(signals) {}
+  SoakCluster(StopSignals& signals, TemporaryFolder folder) : signals_(signals), folder_(std::move(folder)) {}
   Status write_files();
   void hear();
   void change_state();
@@ -63,7 +63,7 @@ class SoakCluster {
   bool is_of_this_life(const std::filesystem::path& picture, std::uint64_t frame) const;
 
   StopSignals& signals_;
-  TemporaryFolder folder_{"lfd-soak"};
+  TemporaryFolder folder_;
   std::string control_, state_;
   std::unique_ptr<Daemons> daemons_;
   std::unique_ptr<ControlClient> client_;

@@ -75,15 +75,16 @@ proto::Deployment whole_deployment() {
 
 StabilityCase deployment_case(const NumberField& field) {
   return {"fields of deployments", field.road, kEachRefusedOrHarmless, [field](const gl::Context&) {
-            const TemporaryFolder folder("lfd-stability");
-            const std::string file = folder.path() / "deployment.textproto";
+            const auto folder = TemporaryFolder::make("lfd-stability");
+            if (!folder) return Outcome{folder.error().message(), 0, false};
+            const std::string file = folder->path() / "deployment.textproto";
             Tally tally(field.words, file + ":");
-            const Status saved = save_calibration(folder.path() / "display.textproto", plain_display());
+            const Status saved = save_calibration(folder->path() / "display.textproto", plain_display());
             if (!saved) return Outcome{saved.error().message(), 0, false};
             for (const auto& [value, message] : field.spoilt) {
-              const Status written = write_file(folder.path() / "deployment.textproto", print_text(*message));
+              const Status written = write_file(folder->path() / "deployment.textproto", print_text(*message));
               if (!written) return Outcome{written.error().message(), 0, false};
-              const auto deployment = load_deployment(folder.path() / "deployment.textproto");
+              const auto deployment = load_deployment(folder->path() / "deployment.textproto");
               if (!deployment) {
                 tally.refused(value, deployment.error().message());
                 continue;

@@ -59,7 +59,7 @@ Error without_folder(const Error& error, const std::filesystem::path& folder) {
 }
 
 Result<std::string> harm_of_file(const std::string& file, const std::string& content) {
-  const TemporaryFolder folder("lfd-stability");
+  LFD_TRY(const TemporaryFolder folder, TemporaryFolder::make("lfd-stability"));
   LFD_TRY_STATUS(write_file(folder.path() / "display.textproto", display_with(file)));
   LFD_TRY_STATUS(write_file(folder.path() / file, content));
   const auto display = load_calibration(folder.path() / "display.textproto");

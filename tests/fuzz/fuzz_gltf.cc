@@ -27,7 +27,7 @@ void check_instances(const google::protobuf::RepeatedPtrField<lfd::proto::Instan
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const lfd::TemporaryFolder kFolder("lfd-fuzz-gltf");
+  static const lfd::TemporaryFolder kFolder = *lfd::TemporaryFolder::make("lfd-fuzz-gltf");
   [[maybe_unused]] static const bool kQuiet = (lfd::start_log("fuzz", "off"), true);
   const auto path = kFolder.path() / "f.gltf";
   LFD_CHECK(lfd::write_file(path, {reinterpret_cast<const char*>(data), size}), "it can be written");

@@ -22,7 +22,7 @@ using testing_support::context;
 
 // A small display in front of two walls and a floor.
 FrameBenchOptions corner_on_desk() {
-  static const TemporaryFolder kFolder{"lfd-frame-bench"};
+  static const TemporaryFolder kFolder = *TemporaryFolder::make("lfd-frame-bench");
   const std::filesystem::path path = kFolder.path() / "corner.textproto";
   const Status written = write_file(path, "name: \"corner\"\ndisplay: \"" LFD_SOURCE_DIR
                                           "/configs/displays/desk.textproto\"\nscene { made { name: \"corner\" } }\n"

@@ -32,7 +32,7 @@ class Workbench {
   std::filesystem::path file(const std::string& name, const std::string& content) const;
 
  private:
-  TemporaryFolder folder_{"lfd-test"};
+  TemporaryFolder folder_ = *TemporaryFolder::make("lfd-test");
 };
 
 // Starts a program of the build by name; fails the test (and aborts it) where that is not possible.

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(ImagesChannelProcess, EveryFrameIsShownWhateverBecomesOfTheConnection) {
-  const TemporaryFolder folder("lfd-images");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-images");
   Stage stage({"--out", folder.path().string()});
   TcpRelay relay(stage.welcome());
   Sender sender(relay.endpoint());
@@ -49,7 +49,7 @@ TEST(ImagesChannelProcess, EveryFrameIsShownWhateverBecomesOfTheConnection) {
 }
 
 TEST(ImagesChannelProcess, ADisplayWhoseWritingHangsCostsFramesAndNeverMemory) {
-  const TemporaryFolder folder("lfd-images");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-images");
   // Pipes that nobody reads from: whoever opens them to write waits for ever.
   for (const std::uint64_t frame : {1, 2}) {
     fs::create_directories(frame_path(folder.path(), frame));

@@ -229,5 +229,23 @@ TEST(Lfd, ExitsWithTwoOnWrongUse) {
   }
 }
 
+TEST(Lfd, SaysThatThereIsNoFolderForTemporaryFiles) {
+  const Workbench bench;
+  const std::string wall = bench.deployment(kQuick), none = bench.folder() / "none";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"view", wall, "--place", "0", "--out", bench.folder() / "eye.png"},
+        {"bench", "soak", "--faults", "1"},
+        {"bench", "cluster", "--out", bench.folder() / "cluster"}}) {
+    std::vector<std::string> command{"TMPDIR=" + none, std::string(LFD_BIN_DIR) + "/lfd"};
+    command.insert(command.begin(), "/usr/bin/env");
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const auto lfd = Process::start({.name = "lfd", .command = command, .on_line = {}, .environment = {}});
+    ASSERT_TRUE(lfd) << lfd.error().message();
+    const auto exit = (*lfd)->wait(kPatience);
+    EXPECT_TRUE(exit && exit->code == 1) << testing::PrintToString(arguments);
+    EXPECT_THAT((*lfd)->lines(), Contains(HasSubstr("TMPDIR " + none))) << testing::PrintToString(arguments);
+  }
+}
+
 }  // namespace
 }  // namespace lfd::harness

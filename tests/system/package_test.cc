@@ -148,7 +148,7 @@ class Package : public testing::Test {
   void expect_to_run() const;
   void expect_to_go() const;
 
-  const TemporaryFolder folder{"lfd-package"};
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-package");
   const fs::path root = folder.path() / "root";
   fs::path package;
 };

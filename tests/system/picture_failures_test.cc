@@ -60,7 +60,7 @@ void expect_both_times_told(const fs::path& folder, const std::function<void(std
 }
 
 TEST(PictureFailures, OfADisplayAreToldOfEachTime) {
-  const TemporaryFolder folder("lfd-test");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-test");
   const fs::path shown = folder.path() / "shown";
   display::PictureWriter writer(shown);
   expect_both_times_told(shown, [&](std::uint64_t number) {
@@ -77,7 +77,7 @@ TEST(PictureFailures, OfADisplayAreToldOfEachTime) {
 }
 
 TEST(PictureFailures, OfANodesFilesAreToldOfEachTime) {
-  const TemporaryFolder folder("lfd-test");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-test");
   const fs::path frames = folder.path() / "frames";
   node::FileSink sink(frames);
   expect_both_times_told(frames, [&](std::uint64_t number) {

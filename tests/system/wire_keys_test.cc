@@ -49,7 +49,7 @@ class WireKeys : public testing::TestWithParam<const char*> {
 
   std::map<std::string, proto::KeyFile> keys_;
   AllowList allowed_;
-  TemporaryFolder folder_{"lfd-wire"};
+  TemporaryFolder folder_ = *TemporaryFolder::make("lfd-wire");
 };
 
 INSTANTIATE_TEST_SUITE_P(Over, WireKeys, testing::Values("tcp", "ipc"),

@@ -17,7 +17,7 @@ class AoPlanes : public testing::Test {
     ASSERT_TRUE(write_planes(file_, planes_));
   }
 
-  TemporaryFolder folder_{"lfd-planes"};
+  TemporaryFolder folder_ = *TemporaryFolder::make("lfd-planes");
   std::filesystem::path file_ = folder_.path() / "some/where/pictures.planes";
   Planes planes_;
 };

@@ -36,7 +36,7 @@ class DeploymentSecurity : public testing::Test {
     return deployment ? "" : deployment.error().message();
   }
 
-  TemporaryFolder folder_{"lfd-security"};
+  TemporaryFolder folder_ = *TemporaryFolder::make("lfd-security");
 };
 
 TEST_F(DeploymentSecurity, PlainTcpBeyondThisMachineIsRefusedUnlessItSaysSo) {

@@ -4,7 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "base/file.h"
 #include "base/temporary_folder.h"
@@ -18,7 +21,7 @@ using testing::HasSubstr;
 
 class Files : public testing::Test {
  protected:
-  const TemporaryFolder temporary_{"lfd-files"};
+  const TemporaryFolder temporary_ = *TemporaryFolder::make("lfd-files");
   const fs::path folder_ = temporary_.path();
 };
 
@@ -73,6 +76,26 @@ TEST_F(Files, HaveTheirFolderToOneWriterAtATime) {
   EXPECT_TRUE(FolderLock::take(folder_));
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
   EXPECT_FALSE(FolderLock::take(folder_ / "none"));
+}
+
+TEST_F(Files, ForAWhileNeedAFolderThatIsThere) {
+  const char* const before = std::getenv("TMPDIR");
+  const std::optional<std::string> kept = before != nullptr ? std::optional<std::string>(before) : std::nullopt;
+  const fs::path none = folder_ / "none";
+  ::setenv("TMPDIR", none.c_str(), 1);
+  const auto missing = TemporaryFolder::make("lfd-files");
+  ::setenv("TMPDIR", folder_.c_str(), 1);
+  fs::path place;
+  {
+    const TemporaryFolder made = *TemporaryFolder::make("lfd-files");
+    place = made.path();
+    EXPECT_TRUE(fs::is_directory(place));
+    EXPECT_EQ(place.parent_path(), folder_);
+  }
+  kept ? ::setenv("TMPDIR", kept->c_str(), 1) : ::unsetenv("TMPDIR");
+  EXPECT_FALSE(fs::exists(place));
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message(), HasSubstr("TMPDIR " + none.string()));
 }
 
 TEST_F(Files, OfFramesTellTheirNumbers) {

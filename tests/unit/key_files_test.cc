@@ -52,7 +52,7 @@ class KeyFiles : public testing::Test {
     return unwrapped(load_deployment(path("wall.textproto")));
   }
 
-  TemporaryFolder folder_{"lfd-keys"};
+  TemporaryFolder folder_ = *TemporaryFolder::make("lfd-keys");
 };
 
 TEST_F(KeyFiles, AKeyIsReadBackAndIsItsOwnersAlone) {

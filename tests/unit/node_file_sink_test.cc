@@ -41,7 +41,7 @@ std::ptrdiff_t files_below(const std::filesystem::path& folder) {
 }
 
 TEST(FileSink, WritesWhatItHasTaken) {
-  const TemporaryFolder folder("lfd-test");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-test");
   {
     FileSink sink(folder.path());
     EXPECT_TRUE(sink.put(images(0, 3, 4)));
@@ -51,7 +51,7 @@ TEST(FileSink, WritesWhatItHasTaken) {
 
 // Hundreds of megabytes of pictures would take many seconds; a node has two to end.
 TEST(FileSink, EndsBeforeItHasWrittenEverything) {
-  const TemporaryFolder folder("lfd-test");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-test");
   Clock::time_point end;
   {
     FileSink sink(folder.path());

@@ -175,7 +175,7 @@ TEST(Recording, ARangeIsTwoNumbersOrOne) {
 }
 
 TEST(RecordingWriter, WritesWhatIsRead) {
-  const TemporaryFolder folder("lfd-test");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-test");
   const auto path = folder.path() / "show.lfdrec";
   const std::string large(std::size_t{3} << 20, 'x');
   proto::RecordingEvent event;
@@ -209,7 +209,7 @@ TEST(RecordingWriter, AFullDiskIsAnError) {
 }
 
 TEST(Recording, ErrorsNameTheFile) {
-  const TemporaryFolder folder("lfd-test");
+  const TemporaryFolder folder = *TemporaryFolder::make("lfd-test");
   const auto path = folder.path() / "no.lfdrec";
   ASSERT_TRUE(write_file(path, "something else"));
   const auto read = Recording::open(path);

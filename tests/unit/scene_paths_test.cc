@@ -31,7 +31,7 @@ class ScenePaths : public testing::Test {
     return scene ? "" : scene.error().message();
   }
 
-  TemporaryFolder folder_{"lfd-paths"};
+  TemporaryFolder folder_ = *TemporaryFolder::make("lfd-paths");
   const fs::path scene_ = folder_.path() / "scene", secret_ = folder_.path() / "secret.bin";
   GltfMaker maker_ = GltfMaker::triangle();
 };
