@@ -117,10 +117,17 @@ Status make_folder(const fs::path& path) {
   return {};
 }
 
-Result<FolderLock> FolderLock::take(const fs::path& folder) {
+Result<FolderLock> FolderLock::take(const fs::path& folder) { return lock(folder, LOCK_EX | LOCK_NB); }
+
+Result<FolderLock> FolderLock::wait(const fs::path& folder) { return lock(folder, LOCK_EX); }
+
+Result<FolderLock> FolderLock::lock(const fs::path& folder, int operation) {
   FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock.descriptor_ < 0) return Error(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
-  if (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) == 0) return lock;
+  int failed = 0;
+  do failed = ::flock(lock.descriptor_, operation);
+  while (failed != 0 && errno == EINTR);
+  if (failed == 0) return lock;
   if (errno == EWOULDBLOCK) return Error(fmt::format("{}: another process writes there", folder.string()));
   return Error(fmt::format("{}: cannot be locked: {}", folder.string(), std::strerror(errno)));
 }

@@ -33,6 +33,8 @@ class FolderLock {
  public:
   // Error: another process has it.
   static Result<FolderLock> take(const std::filesystem::path& folder);
+  // Waits while another process has it.
+  static Result<FolderLock> wait(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
   FolderLock& operator=(FolderLock&&) = delete;
@@ -40,6 +42,7 @@ class FolderLock {
 
  private:
   explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
+  static Result<FolderLock> lock(const std::filesystem::path& folder, int operation);
 
   int descriptor_;
 };

@@ -1,11 +1,12 @@
 // Which node draws which modules, as a deployment file says it.
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <map>
 
 #include "base/log.h"
 #include "proto/deployment_checks.h"
+#include "proto/key_files.h"
+#include "proto/member_name.h"
 #include "proto/module_ranges.h"
 
 namespace lfd {
@@ -18,13 +19,12 @@ Check check_node_names(const proto::Deployment& m) {
     const std::string& name = m.node(i).name();
     const std::string road = fmt::format("node {}", i);
     if (name.empty()) return Fault{road, Error(fmt::format("{}: name: is missing", road))};
-    const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-      return c < 128 && (std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_');
-    });
-    if (!plain || name.size() > 64) {
+    if (const Status fits = check_member_name(name); !fits)
+      return Fault{road + ": name", fits.error().within(road + ": name")};
+    // Its key would be that of somebody else.
+    if (name == kControllerKey || name == kDisplayKey)
       return Fault{road + ": name",
-                   Error(fmt::format("{}: name: at most 64 letters, digits, '.', '-' and '_' are possible", road))};
-    }
+                   Error(fmt::format("{}: name: \"{}\" is the {}'s own; another is needed", road, name, name))};
     if (!seen.emplace(name, i).second) {
       return Fault{road + ": name",
                    Error(fmt::format("{}: name: \"{}\" is the name of node {} already", road, name, seen[name]))};

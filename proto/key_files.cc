@@ -2,11 +2,11 @@
 #include "proto/key_files.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/file.h"
 #include "base/log.h"
 #include "base/secret_file.h"
+#include "proto/member_name.h"
 #include "proto/text_file.h"
 
 namespace lfd {
@@ -16,14 +16,10 @@ namespace {
 constexpr std::size_t kKeyLetters = 40;  // of Z85: 32 bytes
 constexpr std::string_view kZ85 =
     "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&<>()[]{}@%$#";
-constexpr std::size_t kMostLetters = 64;  // of a name, as of nodes
 
 Status check_name(const std::string& name) {
-  const bool plain = std::ranges::all_of(
-      name, [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_'); });
-  if (name.empty() || !plain || name.size() > kMostLetters)
-    return Error("name: 1 to 64 letters, digits, '.', '-' and '_' are possible");
-  return {};
+  const Status fits = check_member_name(name);
+  return fits ? Status() : Status(fits.error().within("name"));
 }
 
 // The key itself is not repeated: it may be the secret one in the wrong place.
@@ -137,7 +133,10 @@ Result<fs::path> find_operator_key(const fs::path& folder) {
     const fs::path path = folder / fmt::format("{}{}", member.name, kKeySuffix);
     if (member.has(proto::Allowed::CONTROL) && fs::exists(path, failure)) return path;
   }
-  return Error(fmt::format("{}: there is no key of anybody who may change the show (right CONTROL)", folder.string()));
+  return Error(
+      fmt::format("{}: there is no key of anybody who may change the show (right CONTROL); `lfd keys make "
+                  "DEPLOYMENT --operator NAME` makes one",
+                  folder.string()));
 }
 
 std::string rights_text(const Allowed& member) {

@@ -74,8 +74,10 @@ TEST_F(Files, HaveTheirFolderToOneWriterAtATime) {
     EXPECT_THAT(second.error().message(), HasSubstr("another process writes there"));
   }
   EXPECT_TRUE(FolderLock::take(folder_));
+  EXPECT_TRUE(FolderLock::wait(folder_));  // that it waits: KeyFiles.WhoeverMakesKeysAtTheSameTimeMakesOneSet
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
   EXPECT_FALSE(FolderLock::take(folder_ / "none"));
+  EXPECT_FALSE(FolderLock::wait(folder_ / "none"));
 }
 
 TEST_F(Files, ForAWhileNeedAFolderThatIsThere) {

@@ -6,6 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <thread>
+
 #include "base/file.h"
 #include "base/log.h"
 #include "base/temporary_folder.h"
@@ -13,6 +16,7 @@
 #include "cli/make_keys.h"
 #include "proto/calibration_file.h"
 #include "proto/deployment_keys.h"
+#include "proto/member_name.h"
 #include "proto/wire/curve.h"
 #include "tests/support/unwrapped.h"
 
@@ -183,13 +187,56 @@ TEST_F(KeyFiles, EveryMemberGetsAKeyAndLaterTheMissingOnesAlone) {
 
 TEST_F(KeyFiles, NoNameIsThatOfTwoMembersAndNoKeyOfNobodyIsTaken) {
   const auto refusal = [](const Result<std::vector<std::string>>& made) { return made ? "" : made.error().message(); };
-  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"display\" }"), {})),
-              HasSubstr("\"display\" is the name of two members: DISPLAY and NODE"));
+  EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {.operators = {"display"}, .viewers = {}})),
+              HasSubstr("\"display\" is the name of two members: DISPLAY and CONTROL"));
   EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {.operators = {"left"}, .viewers = {}})),
               HasSubstr("\"left\" is the name of two members"));
   std::filesystem::create_directories(path("keys"));
   ASSERT_TRUE(create_key_file(path("keys/left.key"), unwrapped(wire::make_key("left"))));
   EXPECT_THAT(refusal(make_keys(deployment("node { name: \"left\" }"), {})), HasSubstr("left.key: is there, and"));
+}
+
+TEST_F(KeyFiles, NoNameLeadsOutOfTheFolder) {
+  const Deployment wall = deployment("node { name: \"left\" }");
+  for (const std::string& name :
+       {std::string("../evil"), path("evil").string(), std::string("a b"), std::string("\xc3\xa9"), std::string("a\nb"),
+        std::string("a\"b"), std::string(), std::string("."), std::string(".."), std::string(300, 'a')}) {
+    for (const KeyHolders& people : {KeyHolders{{name}, {}}, KeyHolders{{"ann"}, {name}}}) {
+      const auto made = make_keys(wall, people);
+      ASSERT_FALSE(made) << name;
+      EXPECT_THAT(made.error().message(), HasSubstr("1 to 64 letters, digits, '.', '-' and '_' are possible")) << name;
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("keys"))) << "nothing is written";
+  for (const std::string& name : {std::string("..."), std::string("a.b-c_1"), std::string(64, 'a')})
+    EXPECT_TRUE(check_member_name(name)) << name;
+  EXPECT_THAT(allow_error(fmt::format("allowed {{ name: \"..\" public_key: \"{}\" right: NODE }}", key_letters('a'))),
+              HasSubstr("name: 1 to 64 letters"));
+}
+
+// Several rounds, since without a lock one of them may be lucky.
+TEST_F(KeyFiles, WhoeverMakesKeysAtTheSameTimeMakesOneSet) {
+  const Deployment wall = deployment("node { name: \"left\" } node { name: \"right\" }");
+  for (int round = 0; round < 10; ++round) {
+    std::filesystem::remove_all(path("keys"));
+    std::atomic<int> made = 0, failed = 0;
+    {
+      std::vector<std::jthread> people;
+      for (const char* const name : {"ann", "bob", "eve", "joe"})
+        people.emplace_back([&, name] {
+          const auto keys = make_keys(wall, {.operators = {name}, .viewers = {}});
+          keys ? made += static_cast<int>(keys->size()) : ++failed;
+        });
+    }
+    EXPECT_EQ(failed, 0);
+    EXPECT_EQ(made, 8) << "controller, display, two nodes, four operators, each once";
+    const AllowList list = unwrapped(read_allow_list(path("keys/allow.textproto")));
+    EXPECT_EQ(list.members.size(), 8U);
+    for (const Allowed& member : list.members)
+      EXPECT_EQ(unwrapped(read_key_file(path("keys/" + member.name + ".key"))).public_key(), member.public_key);
+    const std::filesystem::directory_iterator files(path("keys"));
+    EXPECT_EQ(std::distance(begin(files), end(files)), 9) << "no lock is left";
+  }
 }
 
 TEST_F(KeyFiles, AProgramTakesTheKeyOfItsNameUnlessAnotherIsGiven) {
@@ -207,7 +254,9 @@ TEST_F(KeyFiles, TheOperatorIsWhoseKeyIsThere) {
   std::filesystem::remove(path("keys/ann.key"));
   EXPECT_EQ(unwrapped(find_operator_key(path("keys"))), path("keys/bob.key"));
   std::filesystem::remove(path("keys/bob.key"));
-  EXPECT_FALSE(find_operator_key(path("keys")));
+  EXPECT_THAT(find_operator_key(path("keys")).error().message(),
+              HasSubstr("`lfd keys make DEPLOYMENT --operator NAME` makes one"));
+  EXPECT_THAT(unwrapped(keys_elsewhere(path("keys"))), ElementsAre("ann", "bob"));
 }
 
 }  // namespace
