@@ -93,8 +93,10 @@ Status run(JoinOptions options) {
   const DaemonOptions& daemon = options.daemon;
   if (daemon.controller.empty())
     return Error(fmt::format("{}: the control port is not given there; say --controller", options.deployment_file));
+  const char* const remedy = options.deployment_file.empty() ? kOptionsRemedy : kKeysRemedy;
   for (const std::string& endpoint : {daemon.controller, daemon.images})
-    LFD_TRY_STATUS(check_endpoint(endpoint, !daemon.key_file.empty(), options.accept_plain));
+    LFD_TRY_STATUS(check_endpoint(endpoint, !daemon.key_file.empty(), options.accept_plain, remedy));
+  LFD_TRY_STATUS(check_key_holder(daemon.key_file, proto::Allowed::DISPLAY));
   return run_daemon(daemon);
 }
 

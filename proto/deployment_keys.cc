@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "base/log.h"
-#include "proto/key_files.h"
 
 namespace lfd {
 namespace {
@@ -31,6 +30,21 @@ Result<std::string> choose_key_file(const Deployment& deployment, const std::str
   return given.empty() ? (*folder / fmt::format("{}{}", name, kKeySuffix)).string() : given;
 }
 
+Status check_key_holder(const std::string& key_file, Right right, std::string_view name) {
+  if (key_file.empty()) return {};
+  LFD_TRY(const KeyRing keys, read_key_ring(key_file));
+  const Allowed* const holder = keys.allowed.with_key(keys.own.public_key());
+  if (holder == nullptr) {
+    if (right != proto::Allowed::CONTROLLER) return {};
+    return Error(fmt::format("{}: the key is not in {}, and nobody would talk to it", key_file, kAllowFile));
+  }
+  if (!holder->has(right))
+    return Error(fmt::format("{}: the key of \"{}\" has no right {}", key_file, holder->name,
+                             proto::Allowed::Right_Name(right)));
+  if (name.empty() || holder->name == name) return {};
+  return Error(fmt::format("{}: the key of \"{}\" is not that of \"{}\"", key_file, holder->name, name));
+}
+
 bool is_local_endpoint(std::string_view endpoint) {
   constexpr std::string_view kTcp = "tcp://";
   if (!endpoint.starts_with(kTcp)) return true;
@@ -41,15 +55,12 @@ bool is_local_endpoint(std::string_view endpoint) {
 
 Status check_endpoint(const Deployment& deployment, std::string_view endpoint) {
   const auto& security = deployment.message.security();
-  return check_endpoint(endpoint, !security.keys().empty(), security.accept_plain_tcp_beyond_loopback());
+  return check_endpoint(endpoint, !security.keys().empty(), security.accept_plain_tcp_beyond_loopback(), kKeysRemedy);
 }
 
-Status check_endpoint(std::string_view endpoint, bool has_key, bool accept_plain) {
+Status check_endpoint(std::string_view endpoint, bool has_key, bool accept_plain, const char* remedy) {
   if (has_key || accept_plain || is_local_endpoint(endpoint)) return {};
-  return Error(
-      fmt::format("\"{}\": plain tcp beyond this machine is refused: give the deployment keys (security {{ keys: "
-                  "\"keys\" }} and `lfd keys make`)",
-                  endpoint));
+  return Error(fmt::format("\"{}\": plain tcp beyond this machine is refused: {}", endpoint, remedy));
 }
 
 }  // namespace lfd

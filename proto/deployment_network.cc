@@ -17,7 +17,7 @@ bool has_wildcard(std::string_view endpoint) {
 
 // Plain tcp that others reach is an error of the file, unless it says so.
 Check check_reach(const proto::Deployment::Security& m, const std::string& road, const std::string& endpoint) {
-  const auto reach = check_endpoint(endpoint, !m.keys().empty(), m.accept_plain_tcp_beyond_loopback());
+  const auto reach = check_endpoint(endpoint, !m.keys().empty(), m.accept_plain_tcp_beyond_loopback(), kKeysRemedy);
   if (reach) return std::nullopt;
   return Fault{
       road,

@@ -81,6 +81,8 @@ int run(Arguments a) {
   const auto deployment = load_deployment(a.deployment, overrides);
   if (!deployment) return fail(deployment.error());
   if (const Status completed = complete(a, *deployment); !completed) return wrong_use(completed.error());
+  if (const Status own = check_key_holder(a.options.key_file, proto::Allowed::NODE, a.options.name); !own)
+    return fail(own.error());
   if (const Status known = gl::check_gpu(a.options.gpu); !known) return fail(known.error());
   auto metrics = open_metrics("lfd-rendernode", a.metrics);
   if (!metrics) return fail(metrics.error());

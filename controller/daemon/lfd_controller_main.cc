@@ -106,6 +106,7 @@ int run(Arguments arguments) {
   arguments.options.metrics = *std::move(metrics);
   auto key = choose_key_file(*deployment, arguments.key, kControllerKey);
   if (!key) return wrong_use(key.error());
+  if (const Status own = check_key_holder(*key, proto::Allowed::CONTROLLER); !own) return fail(own.error());
   arguments.options.key_file = *std::move(key);
   auto daemon = Daemon::open(std::move(arguments.options));  // first: whether its addresses are free is said at once
   if (!daemon) return fail(daemon.error());

@@ -190,8 +190,15 @@ TEST(ClusterKeys, WhatCannotBeIsSaidBeforeAnythingStarts) {
   says_at_once("lfd-rendernode", {plain, "--name", "left", "--controller", far}, 2, refused);
   says_at_once("lfd-display", {plain, "--controller", far}, 1, refused);
   says_at_once("lfd-display", {"--controller", "tcp://127.0.0.1:1", "--images", "tcp://10.0.0.1:1"}, 1, refused);
-  says_at_once("lfd", {"ctl", "--controller", far, "status"}, 1, refused);
+  says_at_once("lfd", {"ctl", "--controller", far, "status"}, 1, "--key, or say --accept-plain-tcp-beyond-loopback");
   says_at_once("lfd-controller", {plain, "--key", keyed.key("controller")}, 2, "the deployment works without keys");
+  const std::string file = keyed.file.string();
+  says_at_once("lfd-rendernode",
+               {file, "--name", "left", "--controller", "tcp://127.0.0.1:1", "--key", keyed.key("right")}, 1,
+               "right.key: the key of \"right\" is not that of \"left\"");
+  says_at_once("lfd-controller", {file, "--key", keyed.key("ann")}, 1, "the key of \"ann\" has no right CONTROLLER");
+  says_at_once("lfd-display", {file, "--controller", "tcp://127.0.0.1:1", "--key", keyed.key("left")}, 1,
+               "the key of \"left\" has no right DISPLAY");
   ASSERT_EQ(::chmod(keyed.key("controller").c_str(), 0644), 0);
   says_at_once("lfd-controller", {keyed.file.string()}, 1, "is open to others (mode 0644)");
   std::filesystem::remove(keyed.key("display"));

@@ -67,10 +67,16 @@ TEST_F(DeploymentSecurity, OnlyThisMachineIsThisMachine) {
 }
 
 TEST_F(DeploymentSecurity, EndpointsOfCommandLinesFollowTheDeployment) {
-  EXPECT_FALSE(check_endpoint(*load(""), "tcp://10.0.0.1:1"));
+  EXPECT_THAT(check_endpoint(*load(""), "tcp://10.0.0.1:1").error().message(), HasSubstr("give the deployment keys"));
   EXPECT_TRUE(check_endpoint(*load(""), "tcp://127.0.0.1:1"));
   EXPECT_TRUE(check_endpoint(*load(kKeys), "tcp://10.0.0.1:1"));
   EXPECT_TRUE(check_endpoint(*load(kAccepts), "tcp://10.0.0.1:1"));
+}
+
+TEST_F(DeploymentSecurity, WhereThereIsNoDeploymentOptionsAreNamed) {
+  EXPECT_THAT(check_endpoint("tcp://10.0.0.1:1", false, false).error().message(),
+              testing::AllOf(HasSubstr("with --key, or say --accept-plain-tcp-beyond-loopback"),
+                             testing::Not(HasSubstr("deployment"))));
 }
 
 }  // namespace

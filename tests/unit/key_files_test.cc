@@ -239,6 +239,23 @@ TEST_F(KeyFiles, WhoeverMakesKeysAtTheSameTimeMakesOneSet) {
   }
 }
 
+TEST_F(KeyFiles, AKeyIsHeldAgainstTheListBesideIt) {
+  ASSERT_TRUE(make_keys(deployment("node { name: \"left\" } node { name: \"right\" }"), {{"ann"}, {}}));
+  const auto refusal = [&](const std::string& key, Right right, std::string_view name = {}) {
+    const Status held = check_key_holder(path("keys/" + key + ".key"), right, name);
+    return held ? "" : held.error().message().substr(folder_.path().string().size() + 1);
+  };
+  EXPECT_EQ(refusal("left", proto::Allowed::NODE, "left"), "");
+  EXPECT_EQ(refusal("right", proto::Allowed::NODE, "left"),
+            "keys/right.key: the key of \"right\" is not that of \"left\"");
+  EXPECT_EQ(refusal("ann", proto::Allowed::CONTROLLER), "keys/ann.key: the key of \"ann\" has no right CONTROLLER");
+  EXPECT_EQ(refusal("controller", proto::Allowed::CONTROLLER), "");
+  ASSERT_TRUE(create_key_file(path("keys/new.key"), unwrapped(wire::make_key("new"))));
+  EXPECT_EQ(refusal("new", proto::Allowed::NODE, "left"), "") << "it may be listed later";
+  EXPECT_THAT(refusal("new", proto::Allowed::CONTROLLER), HasSubstr("the key is not in allow.textproto"));
+  EXPECT_TRUE(check_key_holder("", proto::Allowed::NODE, "left"));
+}
+
 TEST_F(KeyFiles, AProgramTakesTheKeyOfItsNameUnlessAnotherIsGiven) {
   Deployment wall = deployment("node { name: \"left\" }");
   EXPECT_EQ(unwrapped(choose_key_file(wall, "", "left")), path("keys/left.key"));
