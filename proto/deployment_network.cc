@@ -44,6 +44,7 @@ Check read_addresses(const proto::Deployment& deployment, Addresses& addresses) 
       return Fault{road,
                    Error(fmt::format("{}: \"{}\": peers are told this address: name one interface", road, *text))};
     }
+    if (auto status = validate_bound_endpoint(*text); !status) return Fault{road, status.error().within(road)};
     if (is_fixed_endpoint(*text) && !seen.emplace(*text, field).second) {
       return Fault{road, Error(fmt::format("{}: \"{}\" is the address of {} already", road, *text, seen[*text]))};
     }

@@ -1,7 +1,12 @@
 // The syntax of endpoints.
 #include "proto/endpoint.h"
 
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <string>
 
 #include "base/log.h"
 
@@ -17,6 +22,18 @@ bool is_host(std::string_view host) {
     return host.substr(1, host.size() - 2).find_first_not_of("0123456789abcdefABCDEF:.%") == host.npos;
   }
   return !host.empty() && host.find_first_not_of(kLetters) == host.npos;
+}
+
+bool is_digit(unsigned char c) { return c < 128 && std::isdigit(c) != 0; }
+
+// As Linux names them: at most 15 letters; a dot stands before the number of a virtual network (eth0.100) alone.
+bool may_be_interface(std::string_view host) {
+  constexpr std::size_t kMostLetters = 15;
+  if (host.size() > kMostLetters || host == "localhost") return false;
+  const std::size_t dot = std::min(host.find('.'), host.size());
+  const std::string_view name = host.substr(0, dot), network = host.substr(std::min(dot + 1, host.size()));
+  const bool is_named = !std::ranges::all_of(name, is_digit);
+  return is_named && std::ranges::all_of(network, is_digit) && dot + 1 != host.size();
 }
 
 bool is_port(std::string_view port) {
@@ -42,6 +59,17 @@ Status validate_endpoint(std::string_view endpoint) {
   if (!is_port(place.substr(colon + 1)))
     return Error(fmt::format("\"{}\": the port must be 1 to 65535, or *", endpoint));
   return {};
+}
+
+Status validate_bound_endpoint(std::string_view endpoint) {
+  if (!endpoint.starts_with(kTcp)) return {};
+  const std::string_view place = endpoint.substr(kTcp.size());
+  const std::string host(place.substr(0, place.rfind(':')));
+  in_addr number{};
+  if (host == "*" || host.front() == '[' || ::inet_aton(host.c_str(), &number) != 0 || may_be_interface(host))
+    return {};
+  return Error(
+      fmt::format("\"{}\": names are not looked up to listen: a numeric address or an interface is needed", endpoint));
 }
 
 bool is_fixed_endpoint(std::string_view endpoint) { return !endpoint.empty() && !endpoint.ends_with(":*"); }

@@ -177,6 +177,8 @@ TEST_F(DeploymentFile, EveryBadFieldIsNamedWithItsLine) {
       {"samples: 8 }", "samples: 8 } pattern { kind: STRIPES }", "9: "},
       {"sink: FILES", "sink: 7", "17: "},
       {"tcp://127.0.0.1:5550", "127.0.0.1:5550", "19: addresses: control: "},
+      {"tcp://127.0.0.1:5550", "tcp://localhost:5550",
+       "19: addresses: control: \"tcp://localhost:5550\": names are not"},
       {"tcp://127.0.0.1:5551", "tcp://*:5551", "20: addresses: state: \"tcp://*:5551\": peers are told"},
       {"tcp://127.0.0.1:5550", "tcp://10.0.0.1:5550", "19: addresses: control: \"tcp://10.0.0.1:5550\": plain tcp"},
       {"tcp://127.0.0.1:5551", "tcp://127.0.0.1:5550",
@@ -217,6 +219,17 @@ TEST(Endpoint, IsTcpWithPortOrIpcWithPath) {
     EXPECT_FALSE(validate_endpoint(bad)) << bad;
   }
   EXPECT_FALSE(validate_endpoint("ipc://" + std::string(108, 'x')));
+}
+
+TEST(Endpoint, ToListenAtIsANumberOrAnInterface) {
+  for (const char* good : {"tcp://127.0.0.1:5550", "tcp://*:1", "tcp://eth0:*", "tcp://enp0s31f6:1", "tcp://eth0.100:1",
+                           "tcp://lo:1", "tcp://10.1:1", "ipc:///tmp/x"}) {
+    EXPECT_TRUE(validate_bound_endpoint(good)) << good;
+  }
+  for (const char* bad : {"tcp://localhost:5550", "tcp://wall-3.local:1", "tcp://eth0.example.org:1",
+                          "tcp://300.1.1.1:1", "tcp://a-long-host-name:1", "tcp://eth0.:1", "tcp://1.2.3.4.5:1"}) {
+    EXPECT_FALSE(validate_bound_endpoint(bad)) << bad;
+  }
 }
 
 TEST(CommittedDeployments, AreAccepted) {
