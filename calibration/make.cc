@@ -65,6 +65,18 @@ PinholeMap with_errors(const PinholeMap& ideal, ImageSize image, Random& random)
   return map;
 }
 
+// Before anything is computed. What there is in all is held in memory, several times while it is written.
+Status check_grid(int columns, int rows, std::size_t modules) {
+  for (const int side : {columns, rows}) {
+    if (side < 2 || side > kMaxGridSide)
+      return Error(fmt::format("{} x {} points; 2 to {} a side are possible", columns, rows, kMaxGridSide));
+  }
+  const std::size_t all = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * modules;
+  if (all <= kMostMeasured) return {};
+  return Error(fmt::format("{} x {} points of {} modules are {} in all; at most {} are possible", columns, rows,
+                           modules, all, kMostMeasured));
+}
+
 std::string known_names() {
   std::string names;
   for (const NamedDisplay& display : kDisplays) names += (names.empty() ? "" : ", ") + std::string(display.name);
@@ -136,6 +148,7 @@ DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t se
 
 Result<DisplayCalibration> measured(const DisplayCalibration& display, int columns, int rows, double bump_px,
                                     std::uint64_t seed) {
+  LFD_TRY_STATUS(check_grid(columns, rows, display.modules.size()));
   DisplayCalibration result = display;
   result.name += fmt::format("-measured-{}", seed);
   Random random(seed);

@@ -1,6 +1,7 @@
 // Displays made by name, in the class of published ones, and the errors that real installations have.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,8 +37,10 @@ DisplayCalibration perturbed(const DisplayCalibration& display, std::uint64_t se
 
 // The same display as if it had been measured: every map becomes a grid of columns x rows nodes over the image, each
 // where the map and a smooth warp of its own, of up to about `bump_px` pixels, put it; holes where the map has none.
-// The screen is taken to go on beside its borders, so that images that reach beyond it have nodes there. Errors: those
-// of GridMap::make, with the module.
+// The screen is taken to go on beside its borders, so that images that reach beyond it have nodes there. Errors: less
+// than 2 or more than kMaxGridSide nodes a side, more than kMostMeasured of all modules, those of GridMap::make, with
+// the module.
+inline constexpr std::size_t kMostMeasured = std::size_t{1} << 24;
 Result<DisplayCalibration> measured(const DisplayCalibration& display, int columns, int rows, double bump_px,
                                     std::uint64_t seed);
 

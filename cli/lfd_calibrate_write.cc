@@ -55,7 +55,9 @@ Result<DisplayCalibration> with_wishes(const DisplayCalibration& display, const 
   }
   if (!options.grid.empty()) {
     LFD_TRY(const auto size, columns_and_rows("--grid", options.grid));
-    LFD_TRY(made, measured(made, size.first, size.second, options.warp_px, options.seed.value_or(1)));
+    auto grids = measured(made, size.first, size.second, options.warp_px, options.seed.value_or(1));
+    if (!grids) return grids.error().within("--grid");
+    made = *std::move(grids);
   }
   if (options.color_seed) made = colored(made, *options.color_seed);
   return made;

@@ -134,5 +134,17 @@ TEST(Perturbed, IsTheSameForTheSameSeedOnly) {
   EXPECT_NE(perturbed(display, 5), perturbed(display, 6));
 }
 
+TEST(Measured, RefusesTooManyPointsAtOnce) {
+  const auto refusal = [](int modules, int columns, int rows) {
+    const auto made = measured(*make_display("desk", modules), columns, rows, 0, 1);
+    return made ? "" : made.error().message();
+  };
+  EXPECT_EQ(refusal(2, 1'000'000, 1'000'000), "1000000 x 1000000 points; 2 to 4096 a side are possible");
+  EXPECT_EQ(refusal(2, 1, 5), "1 x 5 points; 2 to 4096 a side are possible");
+  EXPECT_EQ(refusal(1024, 4096, 4096),
+            "4096 x 4096 points of 1024 modules are 17179869184 in all; at most 16777216 are possible");
+  EXPECT_EQ(refusal(2, 12, 9), "");
+}
+
 }  // namespace
 }  // namespace lfd
