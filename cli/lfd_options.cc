@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/suggest.h"
+#include "calibration/limits.h"
 #include "calibration/spaces/roi.h"
 #include "cli/lfd_commands.h"
 #include "proto/deployment_keys.h"
@@ -22,12 +23,14 @@ const std::vector<std::string>& buffer_names() {
 Status judge_box(Box box, const std::vector<double>& numbers) {
   const glm::dvec3 centre(numbers[0], numbers[1], numbers[2]), size(numbers[3], numbers[4], numbers[5]);
   const bool has_shape = std::min({size.x, size.y, size.z}) > 0;
-  const glm::dvec3 unit_size = has_shape ? size / glm::length(size) : glm::dvec3(1);
+  // The shape of the other box: its axes are not so different that it would be refused in this one's place.
+  const glm::dvec3 least(2 / kMostRoiRatio);
+  const glm::dvec3 other = has_shape ? glm::max(size / std::max({size.x, size.y, size.z}), least) : glm::dvec3(1);
   RegionOfInterest roi;
   if (box == Box::kWorld) {
-    roi = {{centre.x, centre.y, centre.z}, size, {1, 0, 0, 0}, {}, unit_size};
+    roi = {{centre.x, centre.y, centre.z}, size, {1, 0, 0, 0}, {}, other};
   } else {
-    roi = {{}, unit_size, {1, 0, 0, 0}, {centre.x, centre.y, centre.z}, size};
+    roi = {{}, other, {1, 0, 0, 0}, {centre.x, centre.y, centre.z}, size};
   }
   return validate(roi);
 }

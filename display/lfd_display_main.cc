@@ -51,7 +51,10 @@ Status view(const ViewOptions& options) {
   warn_of_missing(pictures);
   const Eye eye{options.eye[0], options.eye[1], options.eye[2]};
   if (const double away = nearest_light_rad(display, eye); away > display.angular_scattering_rad)
-    log::warn("no module lights this eye: the nearest is {:.1f} degrees away", away * 180 / std::numbers::pi);
+    log::warn(
+        "no module lights this eye: the nearest is {:.1f} degrees away; a real display is dark from there, the picture "
+        "shows the light of the nearest modules all the same",
+        away * 180 / std::numbers::pi);
   LFD_TRY(const Picture8 picture, viewer_picture(display, pointers_to(pictures), eye, width, height));
   return write_png(options.out, picture, PngChannels::kRgb);
 }

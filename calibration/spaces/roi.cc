@@ -29,7 +29,10 @@ Status validate(const RegionOfInterest& roi) {
   if (!is_finite(roi.physical_centre)) return Error("physical_centre: must be finite");
   LFD_TRY_STATUS(validate_size("world_size", roi.world_size, kRoiWorldSize_m));
   LFD_TRY_STATUS(validate_size("physical_size", roi.physical_size, kRoiPhysicalSize_m));
-  if (const double away = glm::length(to_glm(roi.world_centre)); !(away <= kFarthestRoi * roi.diagonal_m())) {
+  // Its square may be beyond double precision, and the length itself too.
+  const glm::dvec3 centre = to_glm(roi.world_centre);
+  const long double away = std::hypot<long double>(centre.x, centre.y, centre.z);
+  if (!(away <= kFarthestRoi * roi.diagonal_m())) {
     return Error(fmt::format("world_centre: {:g} m from the origin are more than {:g} diagonals: double precision ends",
                              away, kFarthestRoi));
   }
@@ -44,7 +47,8 @@ Status validate(const RegionOfInterest& roi) {
   for (const double place : {roi.physical_centre.x, roi.physical_centre.y, roi.physical_centre.z}) {
     LFD_TRY_STATUS(check_magnitude("physical_centre", place, kPlace_m));
   }
-  const double norm = glm::length(roi.world_orientation);
+  const glm::dquat& turn = roi.world_orientation;
+  const double norm = std::hypot(std::hypot(turn.w, turn.x), std::hypot(turn.y, turn.z));  // its square may overflow
   if (!(std::abs(norm - 1) <= kUnitLengthError)) {
     return Error(
         fmt::format("world_orientation: a unit quaternion is needed (its length within {:g} of 1), its length is {}",

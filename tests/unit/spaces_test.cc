@@ -122,6 +122,11 @@ TEST(RegionOfInterest, RefusesBoxesThatHaveNoInside) {
   roi = {};
   roi.world_centre.z = -1e13;
   EXPECT_FALSE(validate(roi));
+  roi.world_centre = {1e300, 0, 0};  // its square is infinite
+  EXPECT_EQ(validate(roi).error().message().substr(0, 36), "world_centre: 1e+300 m from the orig");
+  roi = {};
+  roi.world_orientation = glm::dquat(0, 1e300, 0, 0);
+  EXPECT_EQ(validate(roi).error().message().find("inf"), std::string::npos);
 }
 
 TEST(Affine, HasNoInverseWhereItFlattens) {
