@@ -1,12 +1,14 @@
 // Names and values.
 #include "cli/ao_parameter.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "base/log.h"
 #include "proto/occlusion/method.h"
+#include "proto/settings.h"
 
 namespace lfd {
 namespace {
@@ -28,6 +30,13 @@ std::string ranges_of(std::string_view name) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
+bool some_method_takes(std::string_view name, double value) {
+  return std::ranges::any_of(occlusion::methods(), [&](const occlusion::Method* method) {
+    const auto known = std::ranges::find(method->parameters, name, &occlusion::Parameter::name);
+    return known != method->parameters.end() && value >= known->least && value <= known->most;
+  });
+}
+
 }  // namespace
 
 Result<std::pair<std::string, double>> parse_ao_parameter(const std::string& text) {
@@ -38,10 +47,20 @@ Result<std::pair<std::string, double>> parse_ao_parameter(const std::string& tex
   const char* const end = text.data() + text.size();
   double value = 0;
   const auto [stop, failure] = std::from_chars(begin, end, value);
-  if (failure == std::errc() && stop == end && std::isfinite(value)) return std::pair(name, value);
+  const bool is_number = failure == std::errc() && stop == end && std::isfinite(value);
+  if (is_number && some_method_takes(name, value)) return std::pair(name, value);
   const std::string ranges = ranges_of(name);
   if (ranges.empty()) return Error(fmt::format("{}: no method has a parameter {}", text, name));
   return Error(fmt::format("{}: a number is needed, {}", text, ranges));
+}
+
+Status check_ao_parameters(const std::string& method, const std::vector<std::pair<std::string, double>>& parameters) {
+  if (method.empty()) return {};
+  proto::RenderSettings settings;
+  settings.mutable_ao()->set_method(method);
+  for (const auto& [name, value] : parameters) (*settings.mutable_ao()->mutable_parameter())[name] = value;
+  const auto read = read_settings(settings);
+  return read ? Status() : Status(read.error());
 }
 
 }  // namespace lfd

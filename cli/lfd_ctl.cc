@@ -256,6 +256,8 @@ void add_ctl_command(CLI::App& app, int& exit_code) {
   add_controller_options(*ctl, a.controller);
   const auto add = [&](const char* name, const char* description, Status (*what)(const Arguments&)) {
     CLI::App* command = add_command(*ctl, name, description, exit_code, [arguments, what] {
+      const Status possible = check_ao_parameters(arguments->ao_method, arguments->ao_parameters);
+      if (!possible) return wrong_use(possible.error().within("--set"));
       const Status done = what(*arguments);
       return done ? end_of_output() : fail(done.error());
     });

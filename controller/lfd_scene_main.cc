@@ -1,5 +1,7 @@
 // lfd-scene: makes scenes and says what a scene file contains.
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -88,8 +90,10 @@ int run(int argc, char** argv) {
   std::vector<std::string> names;
   for (const scene::MadeScene& made : scene::made_scenes()) names.push_back(made.name);
   make_command->add_option("name", name, "One of `lfd-scene list`")->required()->check(CLI::IsMember(names));
-  make_command->add_option("--out", out, "File to write")->required();
-  make_command->add_option("--seed", seed, "Seed of textures and shapes")->check(seed_number())->capture_default_str();
+  make_command->add_option("--out", out, "File to write: *.glb")->required()->check(file_ending(".glb"));
+  make_command->add_option("--seed", seed, "Seed of textures and shapes")
+      ->check(whole_number_within(0, std::numeric_limits<std::uint32_t>::max()))  // as deployments have it
+      ->capture_default_str();
   make_command->add_option("--width", extent.width_m, "Metres along x (not of ribbed-shell)")
       ->check(number_within(kLeastExtent_m, kMostExtent_m))
       ->capture_default_str();

@@ -164,9 +164,13 @@ TEST(Lfd, ItsProgramsExitWithTwoOnWrongUse) {
   const Workbench bench;
   const std::string wall = bench.deployment(kQuick);
   for (const auto& [program, arguments] :
-       {std::pair<const char*, std::vector<std::string>>{"lfd-scene", {"make", "plane", "--out", "y", "--width", "-1"}},
-        {"lfd-scene", {"make", "plane", "--out", "y", "--seed", "-1"}},
-        {"lfd-scene", {"make", "plane", "--out", "y", "--seed", "18446744073709551616"}},
+       {std::pair<const char*, std::vector<std::string>>{"lfd-scene",
+                                                         {"make", "plane", "--out", "y.glb", "--width", "-1"}},
+        {"lfd-scene", {"make", "plane", "--out", "y.glb", "--seed", "-1"}},
+        {"lfd-scene", {"make", "plane", "--out", "y.glb", "--seed", "4294967296"}},
+        {"lfd-scene", {"make", "plane", "--out", "y.gltf"}},
+        {"lfd-calibrate", {"make", "desk", "--grid", "1000000x1000000", "--out", "y"}},
+        {"lfd-calibrate", {"make", "desk", "--modules", "1024", "--grid", "4096x4096", "--out", "y"}},
         {"lfd-calibrate", {"make", "desk", "--perturb", "-1"}},
         {"lfd-calibrate", {"make", "desk", "--grids", "csv", "--out", "y"}},
         {"lfd-calibrate", {"export", "x", "--out", "y.mpcdi", "--size", "-1", "5"}},
@@ -210,6 +214,8 @@ TEST(Lfd, ExitsWithTwoOnWrongUse) {
         {"ctl", "ao", "--method", "foo"},
         {"ctl", "ao", "--set", "shell"},
         {"ctl", "ao", "--set", "directions=abc"},
+        {"ctl", "ao", "--set", "directions=99999999999"},
+        {"ctl", "ao", "--method", "alchemy", "--set", "directions=16"},
         {"ctl", "ao", "--seed", "-1"},
         {"ctl", "ao", "--seed", "4294967296"},
         {"ctl", "ao", "--seed", "99999999999999999999"},

@@ -61,12 +61,19 @@ TEST(AoParameter, IsANameAndANumber) {
                                     {"shel=x", "shel=x: no method has a parameter shel"}}) {
     EXPECT_EQ(parse_ao_parameter(text).error().message(), error);
   }
-  for (const char* const value : {"abc", "", "nan", "inf", "4x", "1e999"}) {
+  for (const char* const value : {"abc", "", "nan", "inf", "4x", "1e999", "99999999999", "0.5"}) {
     const auto refused = parse_ao_parameter(std::string("directions=") + value);
     ASSERT_FALSE(refused) << value;
     EXPECT_THAT(refused.error().message(),
                 AllOf(HasSubstr("directions="), HasSubstr(": a number is needed, 1 to "), HasSubstr("for hbao")));
   }
+}
+
+TEST(AoParameter, IsHeldAgainstItsMethodWhereThatIsNamed) {
+  EXPECT_TRUE(check_ao_parameters("", {{"directions", 16}}));
+  EXPECT_TRUE(check_ao_parameters("hbao", {{"directions", 16}}));
+  EXPECT_THAT(check_ao_parameters("hbao", {{"directions", 1.5}}).error().message(), HasSubstr("whole numbers"));
+  EXPECT_THAT(check_ao_parameters("alchemy", {{"directions", 16}}).error().message(), HasSubstr("alchemy has"));
 }
 
 TEST(UnknownText, SaysWhatWasMeantOrWhatThereIs) {
