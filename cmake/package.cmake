@@ -10,13 +10,17 @@ install(FILES configs/systemd/lfd-controller.service configs/systemd/lfd-display
               configs/systemd/lfd-rendernode@.service DESTINATION lib/systemd/system)
 install(FILES configs/systemd/lfd.sysusers DESTINATION usr/lib/sysusers.d RENAME lfd.conf)
 install(DIRECTORY proto/ DESTINATION usr/share/lfd/proto FILES_MATCHING PATTERN "*.proto" PATTERN wire EXCLUDE
-                                                                        PATTERN pictures EXCLUDE PATTERN occlusion EXCLUDE)
+                                                                        PATTERN pictures EXCLUDE PATTERN occlusion EXCLUDE
+                                                                        PATTERN images EXCLUDE)
 # To be read: the programs hold them.
 install(DIRECTORY shaders/ DESTINATION usr/share/lfd/shaders
         FILES_MATCHING PATTERN "*.glsl" PATTERN "*.vert" PATTERN "*.frag" PATTERN "*.comp" PATTERN "*.tesc"
                        PATTERN "*.tese" REGEX "/shared/[^/]+[.]h$")
 install(DIRECTORY docs DESTINATION usr/share/doc/lfd)
 install(FILES README.md DESTINATION usr/share/doc/lfd)
+# What it names.
+install(FILES proto/README.md DESTINATION usr/share/doc/lfd/proto)
+install(DIRECTORY bench/results DESTINATION usr/share/doc/lfd/bench FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
 install(FILES cmake/package/copyright DESTINATION usr/share/doc/lfd)
 
 set(CPACK_GENERATOR DEB)

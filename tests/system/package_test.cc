@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "base/file.h"
@@ -116,14 +117,15 @@ class Package : public testing::Test {
     ASSERT_THAT(package.filename().string(), StartsWith("lfd_"));
   }
 
-  std::set<std::string> files() const {
-    std::set<std::string> files;
+  // Folders end in a slash.
+  std::set<std::string> entries() const {
+    std::set<std::string> entries;
     for (const std::string& line : lines_of({"dpkg-deb", "-c", package})) {
       const auto words = words_of(line, " ");
       EXPECT_EQ(words.at(1), "root/root") << line;
-      if (words.at(5) != "./" && !words.at(5).ends_with("/")) files.insert(words.at(5).substr(1));
+      if (words.at(5) != "./") entries.insert(words.at(5).substr(1));
     }
-    return files;
+    return entries;
   }
 
   std::string field(const std::string& name) const { return lines_of({"dpkg-deb", "-f", package, name}).at(0); }
@@ -154,7 +156,13 @@ class Package : public testing::Test {
 };
 
 void Package::expect_files() const {
-  const std::set<std::string> files = this->files();
+  std::set<std::string> files = entries();
+  for (auto entry = files.begin(); entry != files.end(); ++entry) {
+    if (!entry->ends_with("/")) continue;
+    const auto next = std::next(entry);  // in the order of paths: the folder's first file
+    EXPECT_TRUE(next != files.end() && next->starts_with(*entry)) << *entry << " is empty";
+  }
+  std::erase_if(files, [](const std::string& entry) { return entry.ends_with("/"); });
   std::vector<std::string> expected{"/etc/lfd/deployment.textproto",
                                     "/lib/systemd/system/lfd-controller.service",
                                     "/lib/systemd/system/lfd-display.service",
@@ -162,13 +170,19 @@ void Package::expect_files() const {
                                     "/usr/lib/sysusers.d/lfd.conf",
                                     "/usr/share/doc/lfd/README.md",
                                     "/usr/share/doc/lfd/copyright",
+                                    "/usr/share/doc/lfd/bench/results/ao-llvmpipe-Sponza.svg",
                                     "/usr/share/doc/lfd/docs/metrics.md",
+                                    "/usr/share/doc/lfd/proto/README.md",
                                     "/usr/share/lfd/configs/displays/c80.textproto",
                                     "/usr/share/lfd/configs/grafana/lfd.json",
                                     "/usr/share/lfd/proto/deployment.proto",
                                     "/usr/share/lfd/shaders/ao/sphere.frag",
                                     "/usr/share/lfd/shaders/shared/ao_params.glsl"};
   for (const std::string& program : kPrograms) expected.push_back("/usr/bin/" + program);
+  const auto measured = std::regex("`?(bench/results/[a-z0-9-]+[.]md)`?");
+  const std::string readme = *read_file(LFD_SOURCE_DIR "/README.md");
+  for (std::sregex_iterator named(readme.begin(), readme.end(), measured), end; named != end; ++named)
+    expected.push_back("/usr/share/doc/lfd/" + named->str(1));
   EXPECT_THAT(files, IsSupersetOf(expected));
   for (const std::string& file : files) {
     EXPECT_THAT(file, AllOf(Not(HasSubstr("test")), Not(HasSubstr("fuzz"))));
