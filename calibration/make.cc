@@ -65,7 +65,7 @@ PinholeMap with_errors(const PinholeMap& ideal, ImageSize image, Random& random)
   return map;
 }
 
-// Before anything is computed. What there is in all is held in memory, several times while it is written.
+// Before anything is computed. All is held in memory, and again while it is written: of the most points about 2 GiB.
 Status check_grid(int columns, int rows, std::size_t modules) {
   for (const int side : {columns, rows}) {
     if (side < 2 || side > kMaxGridSide)

@@ -29,7 +29,7 @@ bool is_digit(unsigned char c) { return c < 128 && std::isdigit(c) != 0; }
 // As Linux names them: at most 15 letters; a dot stands before the number of a virtual network (eth0.100) alone.
 bool may_be_interface(std::string_view host) {
   constexpr std::size_t kMostLetters = 15;
-  if (host.size() > kMostLetters || host == "localhost") return false;
+  if (host.size() > kMostLetters || host.front() == '[' || host == "localhost") return false;
   const std::size_t dot = std::min(host.find('.'), host.size());
   const std::string_view name = host.substr(0, dot), network = host.substr(std::min(dot + 1, host.size()));
   const bool is_named = !std::ranges::all_of(name, is_digit);
@@ -66,10 +66,9 @@ Status validate_bound_endpoint(std::string_view endpoint) {
   const std::string_view place = endpoint.substr(kTcp.size());
   const std::string host(place.substr(0, place.rfind(':')));
   in_addr number{};
-  if (host == "*" || host.front() == '[' || ::inet_aton(host.c_str(), &number) != 0 || may_be_interface(host))
-    return {};
-  return Error(
-      fmt::format("\"{}\": names are not looked up to listen: a numeric address or an interface is needed", endpoint));
+  if (host == "*" || ::inet_aton(host.c_str(), &number) != 0 || may_be_interface(host)) return {};
+  return Error(fmt::format(
+      "\"{}\": neither names nor IPv6 can be listened at: a numeric IPv4 address or an interface is needed", endpoint));
 }
 
 bool is_fixed_endpoint(std::string_view endpoint) { return !endpoint.empty() && !endpoint.ends_with(":*"); }

@@ -12,8 +12,8 @@ namespace lfd {
 Status validate_endpoint(std::string_view endpoint);
 
 // Of valid endpoints, those that a socket can listen at: ZeroMQ looks up no names then, but knows the interfaces of the
-// machine. Refused is a host that is neither a number nor can be an interface; whether that one is there is found when
-// it is bound.
+// machine, and our sockets are of IPv4. Refused is a host that is neither a number nor can be an interface; whether
+// that one is there is found when it is bound.
 Status validate_bound_endpoint(std::string_view endpoint);
 
 // True where the text fixes one place that only one socket can be bound to: no port "*".

@@ -110,8 +110,8 @@ Result<Socket> open(Context& context, zmq::socket_type type, const std::string& 
   } catch (const zmq::error_t& error) {
     if (error.num() == EADDRINUSE) return taken(endpoint);
     if (binds && error.num() == ENODEV)
-      return Error(
-          fmt::format("{}: this machine has no such interface; a numeric address or an interface is needed", endpoint));
+      return Error(fmt::format(
+          "{}: this machine has no such interface; a numeric IPv4 address or an interface is needed", endpoint));
     return Error(fmt::format("{}: {}", endpoint, error.what()));
   }
 }

@@ -178,7 +178,7 @@ TEST_F(DeploymentFile, EveryBadFieldIsNamedWithItsLine) {
       {"sink: FILES", "sink: 7", "17: "},
       {"tcp://127.0.0.1:5550", "127.0.0.1:5550", "19: addresses: control: "},
       {"tcp://127.0.0.1:5550", "tcp://localhost:5550",
-       "19: addresses: control: \"tcp://localhost:5550\": names are not"},
+       "19: addresses: control: \"tcp://localhost:5550\": neither names"},
       {"tcp://127.0.0.1:5551", "tcp://*:5551", "20: addresses: state: \"tcp://*:5551\": peers are told"},
       {"tcp://127.0.0.1:5550", "tcp://10.0.0.1:5550", "19: addresses: control: \"tcp://10.0.0.1:5550\": plain tcp"},
       {"tcp://127.0.0.1:5551", "tcp://127.0.0.1:5550",
@@ -226,8 +226,9 @@ TEST(Endpoint, ToListenAtIsANumberOrAnInterface) {
                            "tcp://lo:1", "tcp://10.1:1", "ipc:///tmp/x"}) {
     EXPECT_TRUE(validate_bound_endpoint(good)) << good;
   }
-  for (const char* bad : {"tcp://localhost:5550", "tcp://wall-3.local:1", "tcp://eth0.example.org:1",
-                          "tcp://300.1.1.1:1", "tcp://a-long-host-name:1", "tcp://eth0.:1", "tcp://1.2.3.4.5:1"}) {
+  for (const char* bad :
+       {"tcp://localhost:5550", "tcp://wall-3.local:1", "tcp://eth0.example.org:1", "tcp://300.1.1.1:1",
+        "tcp://a-long-host-name:1", "tcp://eth0.:1", "tcp://[::1]:1", "tcp://1.2.3.4.5:1"}) {
     EXPECT_FALSE(validate_bound_endpoint(bad)) << bad;
   }
 }
