@@ -22,7 +22,7 @@ Result<TemporaryFolder> TemporaryFolder::make(std::string_view name) {
   }
   std::string pattern = (all / name).string() + "-XXXXXX";
   if (::mkdtemp(pattern.data()) == nullptr)
-    return Error(fmt::format("TMPDIR {}: no temporary folder can be made: {}", all.string(), std::strerror(errno)));
+    return Error(fmt::format("{}: no temporary folder can be made: {}", all.string(), std::strerror(errno)));
   return TemporaryFolder(std::filesystem::path(pattern));
 }
 

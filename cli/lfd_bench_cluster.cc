@@ -51,7 +51,7 @@ void add_bench_cluster(CLI::App& bench, int& exit_code) {
   CLI::App* cluster = add_command(
       bench, "cluster",
       "Run virtual clusters of ever more nodes: latency, and what a frame costs the controller; exit code 1 where that "
-      "grows with what rests in the scene, the last line is the verdict",
+      "grows with what rests in the scene (of two numbers of those or more, the last line is the verdict)",
       exit_code, [arguments] { return bench_cluster(*arguments); });
   cluster->add_option("--nodes", a.options.nodes, "Numbers of nodes")
       ->delimiter(',')

@@ -19,7 +19,7 @@ struct KeyHolders {
 // Writes NAME.key for the controller, the display, every node and those people into the deployment's keys folder, and
 // allow.textproto with all of them; the names whose keys are new. Members that are there keep their keys, wherever
 // those lie. One process at a time does so in a folder; the others wait. Errors: the deployment has no keys folder; a
-// name that nobody can have (proto/member_name.h), or that two members have (nothing is written then); a key file
+// name that nobody can have (proto/member_name.h), or that two members have (no key is written then); a key file
 // without a member.
 Result<std::vector<std::string>> make_keys(const Deployment& deployment, const KeyHolders& people);
 

@@ -108,7 +108,9 @@ void ShowRecorder::take(const proto::Envelope& message, Clock::time_point at) {
       if (follower_.has_gap()) waits_ = true;
       return;
     case proto::Envelope::kSwap: {
-      if (open_.erase(message.swap().frame()) == 0) return;
+      const bool is_open = open_.contains(message.swap().frame());
+      open_.erase(open_.begin(), open_.upper_bound(message.swap().frame()));  // in order: earlier ones were lost
+      if (!is_open) return;
       ++swapped_;
       proto::RecordingEvent event;
       *event.mutable_swap() = message.swap();
@@ -143,14 +145,14 @@ void ShowRecorder::take_begin(const proto::BeginFrame& begin, Clock::time_point 
     *again.mutable_begin() = begin;
     return wait_with(again, at);
   }
-  if (most_frames_ && begun_ >= *most_frames_) return;
+  if (most_frames_ && swapped_ + open_.size() >= *most_frames_) return;
   if (begin.sequence() != follower_.sequence()) {
     if (snapshots_ > 1) ++left_out_;  // before the first one the recording has not begun
     return;
   }
   proto::RecordingEvent event;
   event.mutable_begin()->set_frame(begin.frame());
-  event.mutable_begin()->set_state_hash(state_hash(*follower_.state()));
+  event.mutable_begin()->set_state_hash(follower_.hash());
   record(std::move(event), at);
   ++begun_;
   open_.insert(begin.frame());

@@ -59,11 +59,11 @@ const std::string* FrameLog::state_hash(std::uint64_t frame) const {
   return entry == nullptr ? nullptr : &entry->report.state_hash();
 }
 
-void FrameLog::reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report) {
+bool FrameLog::reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report) {
   Entry* entry = find(frame);
-  if (entry == nullptr) return;
+  if (entry == nullptr) return true;
   const auto& known = entry->report.node();
-  if (std::ranges::any_of(known, [&](const proto::NodeReport& one) { return one.node() == node; })) return;
+  if (std::ranges::any_of(known, [&](const proto::NodeReport& one) { return one.node() == node; })) return false;
   proto::NodeReport& added = *entry->report.add_node() = report;
   added.set_node(node);
   const std::size_t bytes = added.ByteSizeLong();
@@ -74,6 +74,7 @@ void FrameLog::reported(std::uint64_t frame, const std::string& node, const prot
     report_bytes_ -= std::exchange(oldest.report_bytes, 0);
     oldest.report.clear_node();
   }
+  return true;
 }
 
 void FrameLog::swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules,

@@ -23,9 +23,10 @@ class FrameLog {
   // Of the state that the frame shows; null where the frame is forgotten.
   const std::string* state_hash(std::uint64_t frame) const;
 
-  // A node's report of a frame; its first one counts. Reports of frames that are forgotten have no effect, and the
-  // oldest are forgotten where all of them together are larger than kMostReport_bytes.
-  void reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report);
+  // A node's report of a frame; its first one counts, of others the answer is false. Reports of frames that are
+  // forgotten have no effect, and the oldest are forgotten where all of them together are larger than
+  // kMostReport_bytes.
+  bool reported(std::uint64_t frame, const std::string& node, const proto::NodeReport& report);
 
   void swapped(const FrameBarrier::Swap& swap, const std::vector<std::uint32_t>& stale_modules, Clock::time_point now);
 

@@ -27,7 +27,8 @@ struct DaemonOptions {
 };
 
 // Of the socket that takes images of modules of this size, where it is known: nothing larger is taken in, and of what
-// nobody has looked at no more than 256 MiB, or 16 images, of each connection. Credits keep nodes far below that.
+// nobody has looked at no more than 256 MiB, or 16 images where that is more, of each connection. What does not fit
+// waits at its sender, credit or not.
 wire::Limits image_limits(const std::optional<ImageSize>& image);
 
 // Runs until SIGTERM, SIGINT or the controller's Quit (success), a refusal by the controller, or an endpoint that

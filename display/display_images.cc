@@ -6,7 +6,7 @@ namespace lfd::display {
 namespace {
 
 constexpr auto kWarningPause = std::chrono::seconds(5);
-constexpr std::size_t kLastShown = 256;  // more than are shown between two swaps that are said again
+constexpr std::size_t kLastShown = 4096;  // those of a minute, the longest heartbeat, at 60 a second
 
 proto::Envelope empty_credit() {
   proto::Envelope envelope;

@@ -3,10 +3,12 @@
 
 #include <unistd.h>
 
+#include <utility>
+
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
-#include "proto/try_again.h"
+#include "proto/refusal.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::display {
@@ -106,20 +108,24 @@ Status DisplayLoop::hear_control() {
 }
 
 Status DisplayLoop::take_refusal(const proto::Refused& refused) {
-  // Of every heartbeat that a new controller has heard: the join that the first brings about stands.
-  if (refused.not_a_member() && !welcome_) return {};
-  if (const auto pause = try_again_after(refused)) {
-    if (welcome_) return {};  // of a join before the one that let it in
-    if (!waits_to_join_)
-      log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(*pause));
-    waits_to_join_ = true;
-    next_words_ = Clock::now() + *pause;
-    return {};
+  switch (on_refusal(refused, welcome_)) {
+    case OnRefusal::kIgnore:
+      return {};
+    case OnRefusal::kEnd:
+      return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
+    case OnRefusal::kWait: {
+      const Clock::duration pause = *try_again_after(refused);
+      if (!std::exchange(waits_to_join_, true))
+        log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(pause));
+      next_words_ = Clock::now() + pause;
+      return {};
+    }
+    case OnRefusal::kJoinAgain:
+      log::warn("the controller knows this display no longer ({}); joining again", refused.reason());
+      welcome_ = false;
+      next_words_ = Clock::now();
+      return {};
   }
-  if (!welcome_) return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
-  log::warn("the controller knows this display no longer ({}); joining again", refused.reason());
-  welcome_ = false;
-  next_words_ = Clock::now();
   return {};
 }
 

@@ -176,7 +176,9 @@ void FrameAssembly::swapped(std::uint64_t frame, std::span<const std::uint32_t> 
     if (frame < pending_.begin()->first) return;
     drop(pending_.begin());
   }
-  pending_[frame].swap = std::move(swap);
+  std::optional<Swap>& known = pending_[frame].swap;
+  if (known) swap.event = known->event;  // it is said again: what has come since has come since
+  known = std::move(swap);
 }
 
 std::uint32_t FrameAssembly::credit_for(const std::string& name) {

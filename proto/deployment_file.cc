@@ -32,7 +32,7 @@ Check read_pacing(const proto::Deployment::Pacing& m, Pacing& pacing) {
     pacing.heartbeat = std::chrono::milliseconds(m.heartbeat_ms());
   }
   if (m.hang_s() != 0) {
-    if (auto fault = check_range("pacing: hang_s", m.hang_s(), 1, 86'400)) return fault;
+    if (auto fault = check_range("pacing: hang_s", m.hang_s(), 5, 86'400)) return fault;
     pacing.hang = std::chrono::seconds(m.hang_s());
   }
   pacing.frames_per_second = m.frames_per_second();

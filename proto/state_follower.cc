@@ -8,6 +8,7 @@ namespace lfd {
 void StateFollower::snapshot_came(const proto::State& state) {
   if (state_ && !gap_ && state.sequence() <= state_->sequence()) return;
   state_ = std::make_shared<const proto::State>(state);
+  hasher_.emplace(*state_);
   gap_ = false;
 }
 
@@ -19,6 +20,7 @@ void StateFollower::update_came(const proto::Update& update) {
     gap_ = true;
     return;
   }
+  hasher_->updated(*next, update);
   state_ = std::move(next);
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "proto/state.h"
+#include "proto/state_hasher.h"
 
 namespace lfd {
 
@@ -11,6 +14,8 @@ class StateFollower {
  public:
   // Absent until the first snapshot. What it points to never changes: an update makes a new state.
   const std::shared_ptr<const proto::State>& state() const { return state_; }
+  // Of that state (state_hash); empty until there is one.
+  std::string hash() const { return hasher_ ? hasher_->hash() : ""; }
   std::uint64_t sequence() const { return state_ ? state_->sequence() : 0; }
 
   // Numbers are missing: a snapshot must be asked for. Stays true until one has come.
@@ -24,6 +29,7 @@ class StateFollower {
 
  private:
   std::shared_ptr<const proto::State> state_;
+  std::optional<StateHasher> hasher_;
   bool gap_ = false;
 };
 

@@ -17,11 +17,11 @@ struct ClusterBenchOptions {
   std::vector<int> nodes{1, 2, 4, 8, 16};
   std::vector<int> modules{64, 80, 128};
   std::vector<std::string> scenes{"plane"};  // made ones; the first is shown to every cluster, the others to one
-  // Scenes of so many instances at rest and a few that move, shown to one cluster; their frames are fewer: they are
-  // drawn more slowly.
+  // Scenes of so many instances at rest and a few that move, shown to one cluster; their frames are fewer, and at
+  // least 0.4 s apart.
   std::vector<int> resting{1, 10'000};
   int frames = 500;
-  int crowd_frames = 300;
+  int crowd_frames = 200;
   ImageSize image{16, 12};  // of a module: what is measured is the cluster, not the drawing
 };
 

@@ -26,7 +26,7 @@ class SoakCluster {
   static Result<std::unique_ptr<SoakCluster>> start(StopSignals& signals);
 
   Daemons& daemons() { return *daemons_; }
-  // Kills it first, where it runs. "left" will lose its GL context every 300 frames (15 s).
+  // Kills it first, where it runs. "left" will lose its GL context every 300 frames (15 s), for some hours.
   Status start_daemon(const std::string& name);
 
   // Waits; meanwhile the state changes several times a second, and what is shown is looked at. An error: a signal came.

@@ -53,6 +53,7 @@ class Daemon {
 
  private:
   static constexpr int kRefusedJoins = 8;  // that the log tells of in a row
+  static constexpr const char* kDisplayIsOut = "the display is out, and has not shown every frame";
 
   // A client's wish for a number of frames, and how far it is.
   struct FramesAsked {
@@ -124,7 +125,7 @@ class Daemon {
   void take_ready(const Peer& peer, proto::Ready ready, Clock::time_point now);
   void take_shown(const std::string& display, const proto::Shown& shown, Clock::time_point now);
   void finish(const FrameBarrier::Swap& swap, Clock::time_point now);
-  // The frames that were swapped and not shown will not be: so the client is told that asked for them.
+  // The frames that were swapped and not shown will not be: an error for the client that asked for them, or the replay.
   void lose_unshown(const std::string& why);
   // Without a deadline, what was lost on the way would be waited for without end: it is said again.
   void say_again(Clock::time_point now);
@@ -139,6 +140,7 @@ class Daemon {
   bool waits_for_every_node() const;
   bool take_cue();  // false: the recording cannot be shown any further
   void cue_begun(Clock::time_point now);
+  // Of a node that has drawn: whether it was what was recorded.
   void drawn_of_replay(const Peer& peer, const proto::Ready& ready);
   void end_replay(Clock::time_point now);  // once all of it is shown
   Status may_ask(const proto::Request& request) const;
@@ -167,7 +169,7 @@ class Daemon {
   Assignment assignment_;        // as the deployment has it
   Shares shares_;
   std::map<std::uint64_t, OpenFrame> open_;
-  std::map<std::uint64_t, proto::SwapFrame> unshown_;  // of frames that were asked for and have no deadline
+  std::map<std::uint64_t, proto::SwapFrame> unshown_;  // of frames that were asked for, or replayed, without a deadline
   std::optional<Clock::time_point> first_shown_;       // when the first scene was there
   Membership members_;
   JoinLimiter limiter_;

@@ -53,12 +53,13 @@ void Daemon::begin_frame(Clock::time_point now) {
 }
 
 void Daemon::take_ready(const Peer& peer, proto::Ready ready, Clock::time_point now) {
+  const bool is_drawn = ready.report().error().empty();
   const std::string* hash = log_.state_hash(ready.frame());
-  if (ready.report().error().empty() && hash != nullptr && ready.report().state_hash() != *hash)
+  if (is_drawn && hash != nullptr && ready.report().state_hash() != *hash)
     ready.mutable_report()->set_error("it drew another state than the frame's");  // a frame never mixes two
+  if (!log_.reported(ready.frame(), peer.name, ready.report())) return;           // it is said again
+  if (is_drawn) drawn_of_replay(peer, ready);
   stats_.ready(peer.name, ready, now);
-  log_.reported(ready.frame(), peer.name, ready.report());
-  drawn_of_replay(peer, ready);
   const bool is_said = said_errors_[peer.name] == ready.report().error();
   said_errors_[peer.name] = ready.report().error();
   if (ready.report().error().empty()) return barrier_.ready(peer.name, ready.frame());
@@ -84,6 +85,7 @@ void Daemon::lose_unshown(const std::string& why) {
   if (unshown_.empty()) return;
   unshown_.clear();
   if (asked_ && asked_->error.empty()) asked_->error = why;
+  if (options_.replay && replay_failed_) replay_failed_ = Error(why);
 }
 
 void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
@@ -101,7 +103,8 @@ void Daemon::finish(const FrameBarrier::Swap& swap, Clock::time_point now) {
   }
   const std::vector<std::uint32_t> stale = modules_beside(assignment_, fresh);
   message.mutable_stale_modules()->Add(stale.begin(), stale.end());
-  if (asked_ && has_display_sink() && !has_deadline()) unshown_[swap.frame] = message;
+  const bool is_waited_for = (asked_ && swap.frame >= asked_->first) || options_.replay;
+  if (is_waited_for && has_display_sink() && !has_deadline()) unshown_[swap.frame] = message;
   publish(std::move(envelope));
   log_.swapped(swap, stale, now);
   stats_.swapped(swap, now);
@@ -160,7 +163,8 @@ void Daemon::answer_frames_asked(Clock::time_point now) {
 
   proto::Reply answer;
   answer.set_id(asked_->id);
-  answer.set_error(complete ? asked_->error : "every node that draws is out");
+  const bool is_lost = complete && !shown && !has_deadline() && asked_->error.empty();
+  answer.set_error(!complete ? "every node that draws is out" : is_lost ? kDisplayIsOut : asked_->error);
   for (const proto::FrameReport& report : log_.reports(asked_->first, asked_->count)) *answer.add_frame() = report;
   reply(asked_->client, std::move(answer));
   if (!complete) pacing_.ask_for(0);

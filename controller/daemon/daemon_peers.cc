@@ -73,7 +73,7 @@ void Daemon::peer_is_gone(const std::string& name, const char* why) {
   barrier_.gone(name);
   late_.gone(name);
   if (members_.find(name)->role != proto::DISPLAY) return;
-  lose_unshown("the display is out, and has not shown every frame");
+  lose_unshown(kDisplayIsOut);
   publish_images_endpoint();
 }
 

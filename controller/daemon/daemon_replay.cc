@@ -47,7 +47,7 @@ void Daemon::cue_begun(Clock::time_point now) {
 }
 
 void Daemon::drawn_of_replay(const Peer& peer, const proto::Ready& ready) {
-  if (!options_.replay || !ready.report().error().empty()) return;
+  if (!options_.replay) return;
   const Status same = options_.replay->drawn(ready.frame(), peer.name, ready.report().state_hash());
   if (same) return;
   log::error("{}", same.error().message());
@@ -57,7 +57,9 @@ void Daemon::drawn_of_replay(const Peer& peer, const proto::Ready& ready) {
 void Daemon::end_replay(Clock::time_point now) {
   if (end_ || !options_.replay || options_.replay->next() != nullptr || barrier_.in_flight() > 0) return;
   const auto last = options_.replay->last_frame();
-  if (last && !log_.all_shown(*last, 1) && !is_never_shown(now)) return;
+  // Without a deadline it is waited for until it is shown, or known to be lost.
+  const bool is_lost = last && !has_deadline() && has_display_sink() && !unshown_.contains(*last);
+  if (last && !log_.all_shown(*last, 1) && !is_never_shown(now) && !is_lost) return;
   log::info("{}", options_.replay->summary());
   end_ = "the recording is over";
 }

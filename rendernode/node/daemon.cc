@@ -4,11 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
-#include "proto/try_again.h"
+#include "proto/refusal.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::node {
@@ -139,21 +140,25 @@ Status Daemon::hear_control() {
 }
 
 Status Daemon::take_refusal(const proto::Refused& refused) {
-  // Of every heartbeat that a new controller has heard: the join that the first brings about stands.
-  if (refused.not_a_member() && !welcome_) return {};
-  if (const auto pause = try_again_after(refused)) {
-    if (welcome_) return {};  // of a join before the one that let it in
-    if (!waits_to_join_)
-      log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(*pause));
-    waits_to_join_ = true;
-    next_words_ = Clock::now() + *pause;
-    return {};
+  switch (on_refusal(refused, welcome_)) {
+    case OnRefusal::kIgnore:
+      return {};
+    case OnRefusal::kEnd:
+      return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
+    case OnRefusal::kWait: {
+      const Clock::duration pause = *try_again_after(refused);
+      if (!std::exchange(waits_to_join_, true))
+        log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(pause));
+      next_words_ = Clock::now() + pause;
+      return {};
+    }
+    case OnRefusal::kJoinAgain:
+      log::info("the controller does not know this node ({}); joining again", refused.reason());
+      welcome_ = false;
+      gatherer_.ask_again();
+      next_words_ = Clock::now();
+      return {};
   }
-  if (!welcome_) return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
-  log::info("the controller does not know this node ({}); joining again", refused.reason());
-  welcome_ = false;
-  gatherer_.ask_again();
-  next_words_ = Clock::now();
   return {};
 }
 
@@ -198,6 +203,8 @@ Status Daemon::take_share(std::uint64_t share, const DisplayCalibration& display
   newest_begun_.reset();
   said_ready_.clear();
   waiting_.clear();
+  encoder_.give_up();
+  encoded_.reset();
   states_.clear();
   share_ = share;
   ++epoch_;

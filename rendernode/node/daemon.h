@@ -112,7 +112,7 @@ class Daemon {
   void begin_frames();
   bool can_show(const Begun& begun) const;
   Status take_events();
-  Status check_drawing(Clock::time_point now) const;  // that no driver hangs
+  Status check_drawing(Clock::time_point now);  // that no driver hangs
   Status take_events_of(RenderThread& thread);
   std::vector<OutgoingImage> outgoing(std::uint64_t frame, const FrameResult& result) const;
   void say_ready(std::uint64_t frame, proto::NodeReport report);
@@ -173,6 +173,7 @@ class Daemon {
   bool hears_state_ = false;    // a pulse has come: no begin will be missed, so the controller may count on this node
   proto::Deployment::Sink sink_ = proto::Deployment::DISPLAY;
   Clock::duration heartbeat_ = std::chrono::milliseconds(500), hang_ = std::chrono::minutes(10);
+  Clock::time_point last_check_{}, awake_since_{};  // of the drawing; this process was stopped before that
   Clock::time_point next_words_{}, last_heard_{}, next_snapshot_request_{};
   std::uint64_t dropped_frames_ = 0;
 };

@@ -1,5 +1,6 @@
 // Frames through the node: begin, drawn, ready, and the images on their way.
 #include <algorithm>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/large_blocks.h"
@@ -11,7 +12,8 @@ namespace lfd::node {
 namespace {
 
 constexpr std::size_t kMostBegun = 8;
-constexpr std::size_t kSaidReady = 2;  // as many frames as a controller has open
+constexpr auto kStopped = std::chrono::seconds(1);  // the loop's turn took so long: the whole process was stopped
+constexpr std::size_t kSaidReady = 2;               // as many frames as a controller has open
 
 }  // namespace
 
@@ -71,12 +73,13 @@ bool Daemon::can_show(const Begun& begun) const {
 
 // A process whose driver hangs says heartbeats all the same, and would be waited for in every frame. It ends, so that a
 // spare draws for it, and whoever starts it again finds another driver, or an error.
-Status Daemon::check_drawing(Clock::time_point now) const {
+Status Daemon::check_drawing(Clock::time_point now) {
+  if (now - std::exchange(last_check_, now) > kStopped) awake_since_ = now;
   std::vector<const RenderThread*> threads{drawing_.get(), finishing_.get()};
   if (preparation_) threads.push_back(preparation_->drawing.get());
   for (const auto& retired : retired_) threads.push_back(retired.get());
   for (const RenderThread* thread : threads) {
-    if (thread != nullptr && thread->stuck_for(now) > hang_)
+    if (thread != nullptr && std::min(thread->stuck_for(now), now - awake_since_) > hang_)
       return Error(fmt::format("the GPU has brought nothing to an end for {:.0f} s: its driver hangs",
                                milliseconds(hang_) / 1000));
   }

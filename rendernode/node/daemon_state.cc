@@ -61,7 +61,7 @@ void Daemon::follow_assets() {
   if (!gatherer_.has_all_of(state->scene())) return;
   ready_state_ = state;
   ready_assets_ = std::make_shared<const Assets>(gatherer_.assets());
-  const std::string hash = state_hash(*state);
+  const std::string hash = follower_.hash();
   if (hash == ready_hash_) return;
   ready_hash_ = hash;
   next_words_ = Clock::now();

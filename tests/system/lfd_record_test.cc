@@ -14,6 +14,7 @@
 #include "proto/calibration_file.h"
 #include "proto/frame_files.h"
 #include "proto/settings.h"
+#include "tests/harness/played_node.h"
 #include "tests/support/made.h"
 #include "tests/support/recorded_show.h"
 #include "tests/system/running_cluster.h"
@@ -171,6 +172,19 @@ fs::path slow_show(const Workbench& bench, const std::string& display = "display
   show.frame(4);
   show.end();
   return bench.file("slow.lfdrec", show.bytes);
+}
+
+// Nodes that say what they draw, one of them another state than was recorded.
+TEST(LfdReplay, FailsWhereANodeDrawsAnotherState) {
+  const Workbench bench;
+  const auto controller = start_controller(bench.deployment("pacing { heartbeat_ms: 100 } sink: NONE"),
+                                           {"--replay", slow_show(bench), "--replay-speed", "0"});
+  PlayedNode left("left", controller.endpoint), right("right", controller.endpoint, {.drawn_hash = "another"});
+  ASSERT_TRUE(play_until({&left, &right}, [&] { return left.quit; }));
+  const auto exit = controller.process->wait(kClusterPatience);
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 1);
+  EXPECT_THAT(controller.process->lines(), Contains(HasSubstr("error: frame 3: node \"right\" drew state another")));
 }
 
 TEST(LfdReplay, ClientsCannotChangeWhatIsReplayed) {

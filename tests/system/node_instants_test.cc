@@ -167,14 +167,14 @@ TEST_F(NodeInstants, AGpuThatIsLostAgainAndAgainIsGivenUp) {
 // Its heartbeats would go on for ever.
 TEST(NodeHangs, ANodeWhoseDriverHangsEndsAndTheSpareDraws) {
   FaultStage stage("node { name: \"reserve\" spare: true }",
-                   "pacing { frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 hang_s: 3 }");
+                   "pacing { frames_per_second: 20 heartbeat_ms: 100 deadline_ms: 250 hang_s: 5 }");
   for (const char* const name : {"controller", "display", "left", "reserve"}) stage.start(name);
   stage.start("right", {{"LFD_FAULTS", fmt::format("hang@drawing:{}", kFaultAt)}});
   const auto before = stage.pictures_from(0);
   const auto exit = stage["right"].wait(kClusterPatience);
   ASSERT_TRUE(exit);
   EXPECT_EQ(exit->code, 1);
-  EXPECT_EQ(lines_with(stage["right"], "error: the GPU has brought nothing to an end for 3 s"), 1);
+  EXPECT_EQ(lines_with(stage["right"], "error: the GPU has brought nothing to an end for 5 s"), 1);
   ASSERT_TRUE(becomes(stage.endpoint(), [](const proto::Status& status) {
     return peer_in(status, "reserve").module_size() == 2 && status.stale_modules() == 0;
   }));

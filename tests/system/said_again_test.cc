@@ -39,7 +39,7 @@ class SaidAgain : public testing::Test {
   bool plays_until(const std::function<bool()>& done) { return play_until({&left_, &right_, &display_}, done); }
 
   const Workbench bench_;
-  const RunningController controller_ = start_controller(bench_.deployment("pacing { heartbeat_ms: 50 }"), {"--idle"});
+  const RunningController controller_ = start_controller(bench_.deployment("pacing { heartbeat_ms: 200 }"), {"--idle"});
   PlayedNode left_{"left", controller_.endpoint}, right_{"right", controller_.endpoint};
   PlayedNode display_{"display",
                       controller_.endpoint,
@@ -87,6 +87,18 @@ TEST_F(SaidAgain, AFrameThatTheDisplayOfBeforeHasNotShownIsAnError) {
   display_.habits.beats = false;
   ASSERT_TRUE(plays_until([&] { return is_answered(); }));
   EXPECT_THAT(reply_->error(), HasSubstr("the display is out, and has not shown every frame"));
+}
+
+// Before the frame is swapped.
+TEST_F(SaidAgain, AFrameWithoutADisplayIsAnError) {
+  right_.habits.draws = false;
+  ask_for_frames(1);
+  ASSERT_TRUE(plays_until([&] { return !right_.named.empty(); }));
+  display_.habits.beats = false;
+  display_.leave();
+  right_.habits.draws = true;
+  ASSERT_TRUE(plays_until([&] { return is_answered(); }));
+  EXPECT_THAT(reply_->error(), HasSubstr("the display is out"));
 }
 
 // A frame never mixes two states, whatever a node believes to draw.

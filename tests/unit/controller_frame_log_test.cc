@@ -137,6 +137,9 @@ TEST(FrameLog, KnowsTheStateOfAFrameAndWhetherItWasShown) {
   EXPECT_EQ(log.state_hash(2), nullptr);
   EXPECT_TRUE(log.shown(3, kStart + 1ms));
   EXPECT_FALSE(log.shown(3, kStart + 9ms)) << "it was said again";
+  EXPECT_TRUE(log.reported(3, "left", {}));
+  EXPECT_TRUE(log.reported(3, "right", {}));
+  EXPECT_FALSE(log.reported(3, "left", {})) << "likewise";
   EXPECT_EQ(log.reports(3, 1)[0].begin_to_shown_ms(), 1);
 }
 

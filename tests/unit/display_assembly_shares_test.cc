@@ -79,6 +79,18 @@ TEST(DisplayAssembly, ARestartedNodeCannotBringImagesOfBefore) {
   EXPECT_EQ(display.assembly.dropped_frames(), 1u);
 }
 
+TEST(DisplayAssembly, ASwapThatIsSaidAgainHoldsNoFrameBack) {
+  Shared display;
+  const FrameAssembly::Owners owners{{0, "a"}, {1, "b"}};
+  display.send("a", 1, 0);
+  display.assembly.swapped(1, {}, owners);
+  display.come("b", kStart + 100ms);
+  display.assembly.swapped(1, {}, owners);
+  EXPECT_FALSE(display.assembly.next_frame(kStart + 100ms + FrameAssembly::kReturnPatience));
+  EXPECT_EQ(display.assembly.dropped_frames(), 1u);
+  EXPECT_TRUE(display.assembly.is_past(1));
+}
+
 TEST(DisplayAssembly, WhatWasLostWithTheConnectionIsSentAgain) {
   FrameAssembly assembly;
   assembly.configure(2, kOnePixel);

@@ -23,10 +23,12 @@ proto::Update update_at(std::uint64_t sequence, std::uint32_t buffers) {
 TEST(StateFollower, FollowsUpdatesThatCountByOne) {
   StateFollower follower;
   EXPECT_EQ(follower.state(), nullptr);
+  EXPECT_EQ(follower.hash(), "");
   follower.snapshot_came(state_at(5));
   follower.update_came(update_at(6, 3));
   EXPECT_EQ(follower.sequence(), 6u);
   EXPECT_EQ(follower.state()->buffers(), 3u);
+  EXPECT_EQ(follower.hash(), state_hash(*follower.state()));
   EXPECT_FALSE(follower.has_gap());
 }
 

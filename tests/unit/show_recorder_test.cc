@@ -265,6 +265,22 @@ TEST_F(ShowRecorderTest, WhatIsSaidAgainIsNoOtherLife) {
   EXPECT_FALSE(recorder.end());
 }
 
+// Of frame 1: another frame is recorded in its place.
+TEST_F(ShowRecorderTest, ALostSwapDoesNotKeepItFromHavingEnough) {
+  recorder = ShowRecorder(kPiece, 2);
+  hear(show.pulse());
+  snapshot();
+  for (int frame = 0; frame < 2; ++frame) hear(show.begin());
+  hear(show.swap(0));
+  hear(show.begin());  // not recorded: two are begun
+  hear(show.swap(2));
+  EXPECT_FALSE(recorder.has_enough());
+  hear(show.begin());
+  hear(show.swap(3));
+  EXPECT_TRUE(recorder.has_enough());
+  EXPECT_THAT(told(recorder), ElementsAre("snapshot 5", "begin 0", "begin 1", "swap 0", "begin 3", "swap 3"));
+}
+
 TEST_F(ShowRecorderTest, NoMoreFramesAreRecordedThanAskedFor) {
   recorder = ShowRecorder(kPiece, 2);
   hear(show.pulse());
