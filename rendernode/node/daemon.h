@@ -105,6 +105,7 @@ class Daemon {
   void drop_prepared();
   bool shows_prepared(const Begun& begun) const;
   void switch_to_prepared();
+  void switch_at_rest();
 
   // daemon_frames.cc: frames and images
   bool draws(const proto::BeginFrame& begin) const;  // this node is named

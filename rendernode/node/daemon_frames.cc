@@ -90,6 +90,7 @@ Status Daemon::take_events() {
   LFD_TRY_STATUS(check_drawing(Clock::now()));
   if (std::erase_if(retired_, [](const auto& thread) { return thread->stop_within({}); }) > 0) give_memory_back();
   take_prepared_events();
+  switch_at_rest();
   if (finishing_) LFD_TRY_STATUS(take_events_of(*finishing_));
   // Frames of the scene before come first.
   if (finishing_ && finishing_->pending() == 0) {
