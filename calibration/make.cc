@@ -87,6 +87,7 @@ std::string known_names() {
 
 std::vector<std::string> display_names() {
   std::vector<std::string> names;
+  names.reserve(kDisplays.size());
   for (const NamedDisplay& display : kDisplays) names.emplace_back(display.name);
   return names;
 }

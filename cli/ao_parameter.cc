@@ -25,6 +25,7 @@ std::string ranges_of(std::string_view name) {
     }
   }
   std::vector<std::string> texts;
+  texts.reserve(ranges.size());
   for (const auto& [range, methods] : ranges)
     texts.push_back(fmt::format("{} for {}", range, fmt::join(methods, ", ")));
   return fmt::format("{}", fmt::join(texts, "; "));

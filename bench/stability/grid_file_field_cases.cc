@@ -54,7 +54,8 @@ std::string beginning_of(const std::string& file) {
 
 // The error as it would be if the file were in the working folder.
 Error without_folder(const Error& error, const std::filesystem::path& folder) {
-  const std::string road = folder.string() + "/", message = error.message();
+  const std::string road = folder.string() + "/";
+  const std::string& message = error.message();
   return Error(message.starts_with(road) ? message.substr(road.size()) : message);
 }
 

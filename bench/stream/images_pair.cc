@@ -28,7 +28,9 @@ constexpr auto kTick = 20ms;
 constexpr auto kPatience = 30s;
 constexpr int kWidth_px = 1024;
 
-ImageSize size_of(std::size_t image_bytes) { return {kWidth_px, static_cast<int>(image_bytes / (4 * kWidth_px))}; }
+ImageSize size_of(std::size_t image_bytes) {
+  return {kWidth_px, static_cast<int>(image_bytes / (std::size_t{4} * kWidth_px))};
+}
 
 struct Keys {
   KeyRing display, node;
