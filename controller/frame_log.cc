@@ -46,15 +46,13 @@ void FrameLog::nobody_wants_them() {
   forget_oldest();
 }
 
-const FrameLog::Entry* FrameLog::find(std::uint64_t frame) const {
+FrameLog::Entry* FrameLog::find(std::uint64_t frame) {
   const auto found =
       std::ranges::lower_bound(entries_, frame, {}, [](const Entry& entry) { return entry.report.frame(); });
   return found != entries_.end() && found->report.frame() == frame ? &*found : nullptr;
 }
 
-FrameLog::Entry* FrameLog::find(std::uint64_t frame) { return const_cast<Entry*>(std::as_const(*this).find(frame)); }
-
-const std::string* FrameLog::state_hash(std::uint64_t frame) const {
+const std::string* FrameLog::state_hash(std::uint64_t frame) {
   const Entry* entry = find(frame);
   return entry == nullptr ? nullptr : &entry->report.state_hash();
 }

@@ -21,7 +21,7 @@ class FrameLog {
   void begun(std::uint64_t frame, const RegionOfInterest& roi, const std::string& state_hash, Clock::time_point now);
 
   // Of the state that the frame shows; null where the frame is forgotten.
-  const std::string* state_hash(std::uint64_t frame) const;
+  const std::string* state_hash(std::uint64_t frame);
 
   // A node's report of a frame; its first one counts, of others the answer is false. Reports of frames that are
   // forgotten have no effect, and the oldest are forgotten where all of them together are larger than
@@ -62,7 +62,6 @@ class FrameLog {
     std::size_t report_bytes = 0;  // of the nodes
   };
   Entry* find(std::uint64_t frame);
-  const Entry* find(std::uint64_t frame) const;
 
   void forget_oldest();
 

@@ -3,12 +3,9 @@
 
 #include <unistd.h>
 
-#include <utility>
-
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
-#include "proto/refusal.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::display {
@@ -108,24 +105,11 @@ Status DisplayLoop::hear_control() {
 }
 
 Status DisplayLoop::take_refusal(const proto::Refused& refused) {
-  switch (on_refusal(refused, welcome_)) {
-    case OnRefusal::kIgnore:
-      return {};
-    case OnRefusal::kEnd:
-      return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
-    case OnRefusal::kWait: {
-      const Clock::duration pause = *try_again_after(refused);
-      if (!std::exchange(waits_to_join_, true))
-        log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(pause));
-      next_words_ = Clock::now() + pause;
-      return {};
-    }
-    case OnRefusal::kJoinAgain:
-      log::warn("the controller knows this display no longer ({}); joining again", refused.reason());
-      welcome_ = false;
-      next_words_ = Clock::now();
-      return {};
-  }
+  LFD_TRY(const bool joins_again, refusals_.heard(refused, welcome_, control_.endpoint(), next_words_));
+  if (!joins_again) return {};
+  log::warn("the controller knows this display no longer ({}); joining again", refused.reason());
+  welcome_ = false;
+  next_words_ = Clock::now();
   return {};
 }
 
@@ -144,7 +128,7 @@ Status DisplayLoop::welcome(const proto::Envelope& envelope) {
   assembly_.configure(static_cast<int>(display->modules.size()), display->image, span_of(message.modules()),
                       waiting_bytes > 0 ? waiting_bytes : FrameAssembly::kWaitingPerNode_bytes);
   welcome_ = true;
-  waits_to_join_ = false;
+  refusals_.welcomed();
   stats_.joined(display->modules.size());
   service_.ready();
   next_words_ = Clock::now();

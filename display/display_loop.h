@@ -18,6 +18,7 @@
 #include "display/picture_writer.h"
 #include "display/senders.h"
 #include "proto/deployment_keys.h"
+#include "proto/refusal.h"
 #include "proto/wire/socket.h"
 
 namespace lfd::display {
@@ -72,8 +73,8 @@ class DisplayLoop {
   bool welcome_ = false, ended_ = false;
   // The fresh modules of the last frames that were shown, once that was said: a frame is written first.
   std::map<std::uint64_t, std::optional<int>> last_shown_;
-  bool waits_to_join_ = false;  // it was told to try again, and has said so
-  bool told_shown_ = true;      // the controller could be told of the last frame
+  Refusals refusals_;
+  bool told_shown_ = true;  // the controller could be told of the last frame
   Clock::duration heartbeat_ = std::chrono::milliseconds(500);
   Clock::time_point next_words_{}, last_heard_{}, last_warning_{};
   std::uint64_t refused_images_ = 0;

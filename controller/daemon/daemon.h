@@ -89,8 +89,7 @@ class Daemon {
   void welcome(const Peer& peer, Clock::time_point now);
   void peer_is_gone(const std::string& name, const char* why);
   void peer_is_back(const Peer& peer);
-  void say_not_a_member(const std::string& address);
-  void refuse(const std::string& address, const std::string& reason);
+  void refuse(const std::string& address, proto::Refused refused);
   proto::Snapshot snapshot() const;
   void send_snapshot(const std::string& address);
   void publish_images_endpoint();

@@ -33,7 +33,12 @@ void Daemon::take_join(const wire::Message& message, Clock::time_point now) {
 
 void Daemon::take_heartbeat(const wire::Message& message) {
   const Peer* peer = members_.at(message.peer);
-  if (peer == nullptr) return say_not_a_member(message.peer);
+  if (peer == nullptr) {
+    proto::Refused refused;
+    refused.set_reason("not a member of this cluster");
+    refused.set_not_a_member(true);
+    return refuse(message.peer, std::move(refused));
+  }
   const std::string& hash = message.envelope.heartbeat().state_hash();
   const Phase before = peer->phase;
   const bool can_draw = peer->role != proto::NODE || message.envelope.heartbeat().share() == shares_.number(peer->name);
@@ -84,16 +89,9 @@ void Daemon::peer_is_back(const Peer& peer) {
   prepares_too(peer);
 }
 
-void Daemon::say_not_a_member(const std::string& address) {
+void Daemon::refuse(const std::string& address, proto::Refused refused) {
   proto::Envelope envelope;
-  envelope.mutable_refused()->set_reason("not a member of this cluster");
-  envelope.mutable_refused()->set_not_a_member(true);
-  send(address, std::move(envelope));
-}
-
-void Daemon::refuse(const std::string& address, const std::string& reason) {
-  proto::Envelope envelope;
-  envelope.mutable_refused()->set_reason(reason);
+  *envelope.mutable_refused() = std::move(refused);
   send(address, std::move(envelope));
 }
 

@@ -42,10 +42,10 @@ bool Daemon::lets_join(const wire::Message& message, Clock::time_point now) {
     if (limiter_.warns(now))
       log::warn("too many joins and requests for the state; {} so far are passed over", limiter_.passed_over());
     if (limiter_.tells(message.peer, now)) {
-      proto::Envelope later;
-      later.mutable_refused()->set_reason("too many want to join");
-      later.mutable_refused()->set_try_again_ms(static_cast<std::uint32_t>(JoinLimiter::kTellPause.count()));
-      send(message.peer, std::move(later));
+      proto::Refused later;
+      later.set_reason("too many want to join");
+      later.set_try_again_ms(static_cast<std::uint32_t>(JoinLimiter::kTellPause.count()));
+      refuse(message.peer, std::move(later));
     }
     return false;
   }
@@ -72,7 +72,9 @@ void Daemon::refuse_join(const wire::Message& message, const Error& why, Clock::
   } else {
     stats_.refused();
   }
-  refuse(message.peer, why.message());
+  proto::Refused refused;
+  refused.set_reason(why.message());
+  refuse(message.peer, std::move(refused));
 }
 
 // A process that joins anew has lost its connection, and is silent there. Where it is not, somebody says again what it

@@ -4,12 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "base/log.h"
 #include "base/version.h"
 #include "proto/calibration_file.h"
-#include "proto/refusal.h"
 #include "proto/wire/poll.h"
 
 namespace lfd::node {
@@ -140,25 +138,12 @@ Status Daemon::hear_control() {
 }
 
 Status Daemon::take_refusal(const proto::Refused& refused) {
-  switch (on_refusal(refused, welcome_)) {
-    case OnRefusal::kIgnore:
-      return {};
-    case OnRefusal::kEnd:
-      return Error(fmt::format("{}: refused: {}", control_.endpoint(), refused.reason()));
-    case OnRefusal::kWait: {
-      const Clock::duration pause = *try_again_after(refused);
-      if (!std::exchange(waits_to_join_, true))
-        log::warn("not let in yet: {}; joining again every {:.0f} ms", refused.reason(), milliseconds(pause));
-      next_words_ = Clock::now() + pause;
-      return {};
-    }
-    case OnRefusal::kJoinAgain:
-      log::info("the controller does not know this node ({}); joining again", refused.reason());
-      welcome_ = false;
-      gatherer_.ask_again();
-      next_words_ = Clock::now();
-      return {};
-  }
+  LFD_TRY(const bool joins_again, refusals_.heard(refused, welcome_, control_.endpoint(), next_words_));
+  if (!joins_again) return {};
+  log::info("the controller does not know this node ({}); joining again", refused.reason());
+  welcome_ = false;
+  gatherer_.ask_again();
+  next_words_ = Clock::now();
   return {};
 }
 
@@ -184,7 +169,7 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   take_snapshot(message.snapshot());
   use_images_endpoint(message.images_endpoint());
   welcome_ = true;
-  waits_to_join_ = false;
+  refusals_.welcomed();
   stats_.joined(static_cast<std::size_t>(message.modules_size()));
   service_.ready();
   next_words_ = Clock::now();

@@ -14,6 +14,7 @@
 #include "base/signals.h"
 #include "proto/asset_gatherer.h"
 #include "proto/deployment.pb.h"
+#include "proto/refusal.h"
 #include "proto/state_follower.h"
 #include "proto/wire/socket.h"
 #include "rendernode/node/file_sink.h"
@@ -46,11 +47,11 @@ class Daemon {
   bool stop_drawing_within(Clock::duration patience);
 
  private:
-  // A frame that was announced and not yet given to the render thread, and the state that it is of: absent where that
-  // was not here when it was announced.
+  // A frame that was announced and not yet given to the render thread, and the hash of the state that it is of: empty
+  // where that was not here when it was announced.
   struct Begun {
     proto::BeginFrame begin;
-    std::shared_ptr<const proto::State> state;
+    std::string hash;
   };
   // What each frame under way is drawn from.
   struct FrameState {
@@ -170,8 +171,8 @@ class Daemon {
   Clock::time_point next_look_{};  // when those are told again
 
   bool welcome_ = false, may_drop_ = false, ended_ = false;
-  bool waits_to_join_ = false;  // it was told to try again, and has said so
-  bool hears_state_ = false;    // a pulse has come: no begin will be missed, so the controller may count on this node
+  Refusals refusals_;
+  bool hears_state_ = false;  // a pulse has come: no begin will be missed, so the controller may count on this node
   proto::Deployment::Sink sink_ = proto::Deployment::DISPLAY;
   Clock::duration heartbeat_ = std::chrono::milliseconds(500), hang_ = std::chrono::minutes(10);
   Clock::time_point last_check_{}, awake_since_{};  // of the drawing; this process was stopped before that

@@ -42,7 +42,7 @@ void Daemon::take_begin(const proto::BeginFrame& begin) {
   newest_begun_ = begin.frame();
   fault::at(fault::kBegin, begin.frame());
   stats_.begun(begin.frame(), last_heard_);
-  begun_.push_back({begin, follower_.sequence() == begin.sequence() ? follower_.state() : nullptr});
+  begun_.push_back({begin, follower_.sequence() == begin.sequence() ? follower_.hash() : ""});
   begin_frames();  // before the next update: a frame is drawn from the state it names
 }
 
@@ -67,8 +67,7 @@ void Daemon::begin_frames() {
 // Whether the state at hand is the frame's own, or shows the same: other nodes draw that one, and a frame never mixes
 // two. Messages of two channels overtake each other: a snapshot may be newer than the frame that is announced after it.
 bool Daemon::can_show(const Begun& begun) const {
-  if (ready_state_->sequence() == begun.begin.sequence()) return true;
-  return begun.state != nullptr && state_hash(*begun.state) == ready_hash_;
+  return ready_state_->sequence() == begun.begin.sequence() || begun.hash == ready_hash_;
 }
 
 // A process whose driver hangs says heartbeats all the same, and would be waited for in every frame. It ends, so that a

@@ -20,6 +20,8 @@ using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
 using testing::UnorderedElementsAre;
 using testing_support::unwrapped;
 
@@ -32,6 +34,12 @@ Ended run(std::vector<std::string> arguments) {
   const auto process = start_program("lfd", std::move(arguments));
   const auto exit = process->wait(kClusterPatience);
   return {exit ? exit->code : -1, process->lines()};
+}
+
+// Its lines; its exit code is expected to be this.
+std::vector<std::string> lines_of(const Ended& ended, int code = 0) {
+  EXPECT_EQ(ended.code, code) << testing::PrintToString(ended.lines);
+  return ended.lines;
 }
 
 unsigned mode_of(const fs::path& path) {
@@ -130,6 +138,30 @@ TEST_F(LfdKeys, AClusterComesUpWithThem) {
   ASSERT_FALSE(running.endpoint.empty());
   EXPECT_TRUE(draws({running.endpoint, key("ann")}, 3));
   EXPECT_FALSE(status_at(running.endpoint)) << "nobody is heard without a key";
+}
+
+TEST_F(LfdKeys, NamesThatNobodyCanHaveAreWrongUse) {
+  for (const char* const option : {"--operator", "--viewer"}) {
+    EXPECT_THAT(lines_of(make({option, "../evil"}), 2),
+                Contains(AllOf(HasSubstr(fmt::format("error: {}: \"../evil\": 1 to 64 letters", option)))));
+    lines_of(make({option, "ann,a b"}), 2);
+  }
+  EXPECT_FALSE(fs::exists(keys_));
+  EXPECT_FALSE(fs::exists(bench_.folder() / "evil.key"));
+}
+
+TEST_F(LfdKeys, ThatAreNotThereAreNamedWithWhatToDo) {
+  EXPECT_THAT(lines_of(make({"--operator", "ann"})), SizeIs(5));  // controller, display, two nodes and ann
+  EXPECT_THAT(lines_of(make()), ElementsAre(HasSubstr("nothing to make: ")));
+  fs::remove(key("left"));
+  EXPECT_THAT(lines_of(make()), ElementsAre(HasSubstr("nothing to make: "), HasSubstr("not in this folder: left (")));
+  fs::remove(key("ann"));
+  const std::string remedy = fmt::format("`lfd keys make {} --operator NAME`", deployment_.string());
+  EXPECT_THAT(lines_of(make()), Contains(HasSubstr(remedy)));
+  EXPECT_THAT(lines_of(run({"run", deployment_.string()}), 1),
+              Contains(HasSubstr("`lfd keys make DEPLOYMENT --operator NAME` makes one")));
+  EXPECT_THAT(lines_of(make({"--operator", "bob"})),
+              AllOf(Contains(HasSubstr("bob.key")), Not(Contains(HasSubstr(remedy)))));
 }
 
 }  // namespace
