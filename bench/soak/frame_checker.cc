@@ -33,12 +33,13 @@ proto::Color linear(const Rgb8& bytes) {
 }
 
 std::optional<Rgb8> own_color_of(const proto::Scene& scene) {
-  const auto own = std::ranges::find_if(scene.material(), &proto::Material::unlit);
-  if (own == scene.material().end() || own->base_color_size() < 3) return std::nullopt;
+  if (scene.material().empty()) return std::nullopt;
+  const proto::Material& own = *scene.material().rbegin();
+  if (!own.unlit() || own.has_texture() || own.base_color_size() < 3) return std::nullopt;
   proto::Color color;
-  color.set_r(own->base_color(0));
-  color.set_g(own->base_color(1));
-  color.set_b(own->base_color(2));
+  color.set_r(own.base_color(0));
+  color.set_g(own.base_color(1));
+  color.set_b(own.base_color(2));
   return shown(color);
 }
 

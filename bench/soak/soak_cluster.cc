@@ -27,7 +27,7 @@ constexpr int kModules = 8;
 constexpr ImageSize kImage{64, 48};
 constexpr std::size_t kMiddle = std::size_t{4} * (kImage.height / 2 * kImage.width + kImage.width / 2);
 constexpr const char* kProcesses[] = {"controller", "display", "left", "right", "reserve"};
-constexpr Rgb8 kFirstColor{210, 60, 100}, kOtherColor{40, 170, 220};     // of the shells, which cover the middle pixels
+constexpr Rgb8 kFirstColor{210, 60, 100}, kOtherColor{40, 170, 220};     // what covers the middle pixels
 constexpr std::uint64_t kFramesBetweenLosses = 300, kMostLosses = 1000;  // of the context of "left"
 constexpr auto kChangePause = 150ms, kRest = 400ms, kLookPause = 100ms, kTick = 10ms;
 constexpr int kChangesBetweenRests = 4;
@@ -35,6 +35,22 @@ constexpr auto kAnswerPatience = 300ms;  // the controller may be stopped
 constexpr auto kScenePatience = 30s;
 constexpr auto kFileClock = 20ms;           // files are stamped by ticks of the kernel, 1 to 10 ms apart
 constexpr std::uint64_t kFramesInHand = 4;  // of a display's writers, and one more
+
+// A picture of this seed, and before its middle a rectangle of this colour. Few triangles: llvmpipe keeps those of the
+// last frames in up to 36 MiB, or does not, as its threads happen to be done with them (LP_SCENE_MAX_SIZE).
+Result<SceneData> colored_scene(std::uint64_t seed, const Rgb8& color) {
+  LFD_TRY(LoadedScene made, scene::make_scene("quad", seed, {.width_m = 0.8, .height_m = 0.9}));  // beside it: nothing
+  proto::Scene& scene = made.data.scene;
+  proto::Instance& middle = *scene.add_instance();
+  middle = scene.instance(0);
+  middle.set_material(static_cast<std::uint32_t>(scene.material_size()));
+  middle.clear_world_from_mesh();
+  for (const double entry : {0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.05})
+    middle.add_world_from_mesh(entry);
+  *scene.add_material() = scene.material(0);
+  give_own_color(scene, color);
+  return std::move(made.data);
+}
 
 }  // namespace
 
@@ -44,10 +60,9 @@ Status SoakCluster::write_files() {
   LFD_TRY_STATUS(save_calibration(folder_.path() / "display.textproto", display));
   for (const auto& [file, seed, color] :
        {std::tuple{"other.glb", 2u, kOtherColor}, std::tuple{"first.glb", 1u, kFirstColor}}) {
-    LFD_TRY(LoadedScene scene, scene::make_scene("ribbed-shell", seed));
-    give_own_color(scene.data.scene, color);
-    LFD_TRY_STATUS(scene::write_glb(folder_.path() / file, scene.data));
-    first_scene_ = scene.data.scene;
+    LFD_TRY(const SceneData scene, colored_scene(seed, color));
+    LFD_TRY_STATUS(scene::write_glb(folder_.path() / file, scene));
+    first_scene_ = scene.scene;
   }
   control_ = free_endpoint();
   state_ = free_endpoint();
@@ -112,6 +127,13 @@ bool SoakCluster::is_whole() {
     return holds && (peer.state() == "ready" || peer.state() == "late");
   });
   return all_ready && now->peer_size() == 4;
+}
+
+bool SoakCluster::spare_draws() {
+  const auto now = status();
+  return now && std::ranges::any_of(now->peer(), [](const proto::PeerStatus& peer) {
+           return peer.spare() && peer.module_size() > 0 && peer.state() == "ready";
+         });
 }
 
 Status SoakCluster::look_for(Clock::duration time) {

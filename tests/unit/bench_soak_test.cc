@@ -27,11 +27,14 @@ TEST(FrameChecker, NoTwoOfManyColoursAreAlike) {
 
 constexpr Rgb8 kOneScene{200, 50, 90}, kOtherScene{30, 160, 220};
 
-// As the shell of a made scene: lit and textured, until it is given its colour.
+// Unlit and textured, like what lies behind it, until it is given its colour.
 proto::Scene scene_of(const Rgb8& color) {
   proto::Scene scene;
-  scene.add_material()->set_name("floor");
-  scene.add_material()->mutable_texture()->set_picture("nacre");
+  for (const char* const picture : {"behind", "middle"}) {
+    proto::Material& material = *scene.add_material();
+    material.mutable_texture()->set_picture(picture);
+    material.set_unlit(true);
+  }
   give_own_color(scene, color);
   return scene;
 }
