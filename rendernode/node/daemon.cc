@@ -198,7 +198,7 @@ Status Daemon::take_share(std::uint64_t share, const DisplayCalibration& display
   retire_drawing();
   display_ = display;
   modules_ = std::move(modules);
-  drawing_started_ = false;
+  drawing_started_ = rehearses_ = rehearsed_ = false;
   if (!modules_.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *display_, modules_);
   return {};
 }

@@ -85,7 +85,7 @@ class Daemon {
   // These are its modules from now on; what it drew of others ends. The thread that draws them stays where it draws the
   // very same.
   Status take_share(std::uint64_t share, const DisplayCalibration& display, std::vector<std::uint32_t> modules);
-  // The context is there, and the display takes images.
+  // The context is there, what it takes long over the first time is behind it, and the display takes images.
   bool can_draw() const;
   void retire_drawing();
   void say(proto::Envelope envelope);
@@ -97,7 +97,8 @@ class Daemon {
   void follow_assets();
   void hear_bulk();
 
-  // daemon_scenes.cc: a scene that is to come is built beside the one that is shown
+  // daemon_scenes.cc: what is drawn for nobody; a scene that is to come is built beside the one that is shown
+  void rehearse();
   void take_prepare(const proto::Prepare& message);
   void build_prepared();
   void take_prepared_events();
@@ -153,6 +154,7 @@ class Daemon {
   std::uint64_t prepared_shown_ = 0;     // the number that the state's scene was prepared under; 0: it was not
   std::uint64_t prepared_sequence_ = 0;  // of the update that shows it
   bool drawing_started_ = false;         // its context is there
+  bool rehearses_ = false, rehearsed_ = false;
   // Of earlier welcomes, still in a frame that nobody waits for.
   std::vector<std::unique_ptr<RenderThread>> retired_;
   std::deque<Begun> begun_;

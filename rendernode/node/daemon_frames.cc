@@ -19,7 +19,7 @@ constexpr std::size_t kSaidReady = 2;               // as many frames as a contr
 
 bool Daemon::can_draw() const {
   const bool has_display = sink_ == proto::Deployment::DISPLAY && !images_endpoint_.empty();
-  return !drawing_ || (drawing_started_ && (!has_display || outbox_.is_known()));
+  return !drawing_ || (drawing_started_ && (rehearsed_ || !may_drop_) && (!has_display || outbox_.is_known()));
 }
 
 bool Daemon::draws(const proto::BeginFrame& begin) const {
@@ -97,12 +97,17 @@ Status Daemon::take_events() {
     finishing_.reset();
   }
   if (drawing_ && !finishing_) LFD_TRY_STATUS(take_events_of(*drawing_));
+  rehearse();
   hand_on_waiting();
   return {};
 }
 
 Status Daemon::take_events_of(RenderThread& thread) {
   while (auto event = thread.take()) {
+    if (event->kind == FrameEvent::Kind::kReady && event->epoch == kForNobody) {
+      rehearsed_ = true;
+      next_words_ = Clock::now();
+    }
     const bool is_of_a_frame = event->kind == FrameEvent::Kind::kDrawn || event->kind == FrameEvent::Kind::kReady;
     if (is_of_a_frame && event->epoch != epoch_) continue;
     switch (event->kind) {

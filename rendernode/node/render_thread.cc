@@ -94,7 +94,8 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
     if (fault::due("lose-context", fault::kDrawing, oldest.frame)) context.lose();
     if (!renderer.finished(20ms) && !context.is_lost()) continue;
     if (context.is_lost()) return End::kLost;
-    if (fault::slowdown() > 1) std::this_thread::sleep_for((fault::slowdown() - 1) * (Clock::now() - oldest.begun));
+    if (fault::slowdown() > 1 && oldest.epoch != kForNobody)
+      std::this_thread::sleep_for((fault::slowdown() - 1) * (Clock::now() - oldest.begun));
     say({FrameEvent::Kind::kDrawn, oldest.frame, oldest.epoch, {}, {}});
     gets_on();
     if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, std::move(*job));

@@ -16,9 +16,11 @@
 
 namespace lfd::node {
 
+inline constexpr std::uint64_t kForNobody = 0;  // an epoch
+
 struct DrawJob {
   std::uint64_t frame = 0;
-  std::uint64_t epoch = 0;  // given back with the frame's events: whoever asked may have joined anew since
+  std::uint64_t epoch = kForNobody;  // given back with the frame's events: whoever asked may have joined anew since
   std::shared_ptr<const proto::State> state;
   std::shared_ptr<const Assets> assets;
   bool time_modules = false;
