@@ -70,7 +70,7 @@ TEST(Service, TheControllerIsReadyOnceItsSceneIsThere) {
   NotifySocket socket(bench.folder());
   const auto controller = start_service("lfd-controller", {bench.deployment(""), "--print-endpoint"}, socket);
   ASSERT_TRUE(socket.hears("READY=1", kClusterPatience)) << testing::PrintToString(controller->lines());
-  EXPECT_EQ(lines_with(*controller, "scene: plane is shown"), 1);
+  EXPECT_TRUE(controller->wait_for_line("scene: plane is shown", kClusterPatience)) << "through another pipe";
   EXPECT_TRUE(lives(socket, 5));
   EXPECT_TRUE(socket.has_heard("STATUS=\"plane\": frame 0") ||
               socket.hears("STATUS=\"plane\": frame 0", kClusterPatience));
