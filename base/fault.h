@@ -1,7 +1,8 @@
 // Faults that a test plants in a process: at a named instant of a frame it kills itself, stops, or is told to fail.
 //
 // The environment variable LFD_FAULTS lists them: ACTION@INSTANT:FRAME[,...], as in "kill@drawn:20". Each happens once,
-// at the first such instant of that frame or a later one. Without the variable nothing happens.
+// at the first such instant of that frame or a later one; a picture drawn for nobody passes "drawing" as frame 0.
+// Without the variable nothing happens.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ class Shares {
   Shares(Assignment own, std::vector<std::string> spares, proto::Deployment::GiveBack give_back);
 
   // Whom the cluster has now. Returns the spares that have got another share, and are to be told: they count as loading
-  // until they have said its number.
+  // until they have said its number and that they can draw it.
   std::vector<std::string> settle(const std::map<std::string, Presence>& presence);
 
   // The share of a node as it is to be told, and its number: another one whenever the modules are others.

@@ -59,7 +59,9 @@ void Daemon::end_replay(Clock::time_point now) {
   const auto last = options_.replay->last_frame();
   // Without a deadline it is waited for until it is shown, or known to be lost.
   const bool is_lost = last && !has_deadline() && has_display_sink() && !unshown_.contains(*last);
-  if (last && !log_.all_shown(*last, 1) && !is_never_shown(now) && !is_lost) return;
+  const bool is_shown = !last || log_.all_shown(*last, 1);
+  if (!is_shown && !is_never_shown(now) && !is_lost) return;
+  if (!is_shown && !has_deadline() && has_display_sink() && replay_failed_) replay_failed_ = Error(kDisplayIsOut);
   log::info("{}", options_.replay->summary());
   end_ = "the recording is over";
 }

@@ -105,7 +105,7 @@ void Daemon::join_or_beat(Clock::time_point now) {
   proto::Envelope words;
   if (welcome_) {
     if (!gatherer_.complete()) follow_assets();
-    words.mutable_heartbeat()->set_state_hash(hears_state_ && can_draw() ? ready_hash_ : "");
+    words.mutable_heartbeat()->set_state_hash(hash_to_say());
     words.mutable_heartbeat()->set_share(share_);
   } else {
     auto* join = words.mutable_join();
@@ -159,6 +159,9 @@ Status Daemon::welcome(const proto::Welcome& message, std::uint64_t session) {
   may_drop_ = message.may_drop();
   sink_ = static_cast<proto::Deployment::Sink>(message.sink());
   hears_state_ = false;
+  ready_state_.reset();  // sequences are that session's
+  ready_assets_.reset();
+  ready_hash_.clear();
   if (sink_ == proto::Deployment::FILES && !files_) files_.emplace(options_.out);
   restart_images(message.stream());
   gatherer_.ask_again();
@@ -199,6 +202,7 @@ Status Daemon::take_share(std::uint64_t share, const DisplayCalibration& display
   display_ = display;
   modules_ = std::move(modules);
   drawing_started_ = rehearses_ = rehearsed_ = false;
+  rehearsals_ = 0;
   if (!modules_.empty()) drawing_ = std::make_unique<RenderThread>(options_.gpu, *display_, modules_);
   return {};
 }

@@ -85,8 +85,6 @@ class Daemon {
   // These are its modules from now on; what it drew of others ends. The thread that draws them stays where it draws the
   // very same.
   Status take_share(std::uint64_t share, const DisplayCalibration& display, std::vector<std::uint32_t> modules);
-  // The context is there, what it takes long over the first time is behind it, and the display takes images.
-  bool can_draw() const;
   void retire_drawing();
   void say(proto::Envelope envelope);
   void serve(Clock::time_point now);  // the service manager and Prometheus
@@ -97,8 +95,14 @@ class Daemon {
   void follow_assets();
   void hear_bulk();
 
-  // daemon_scenes.cc: what is drawn for nobody; a scene that is to come is built beside the one that is shown
-  void rehearse();
+  // daemon_ready.cc: when it may be counted on
+  bool holds_state() const;  // the last that was told, with all its assets
+  bool can_draw() const;     // the context is there, a first picture is drawn, and the display takes images
+  std::string hash_to_say() const;
+  void rehearse(Clock::time_point now);
+  void rehearsal_ended(const std::string& error);
+
+  // daemon_scenes.cc: a scene that is to come is built beside the one that is shown
   void take_prepare(const proto::Prepare& message);
   void build_prepared();
   void take_prepared_events();
@@ -154,7 +158,11 @@ class Daemon {
   std::uint64_t prepared_shown_ = 0;     // the number that the state's scene was prepared under; 0: it was not
   std::uint64_t prepared_sequence_ = 0;  // of the update that shows it
   bool drawing_started_ = false;         // its context is there
+  // A picture drawn for nobody with the assets at hand: asked for; done. How many are under way, and the last error.
   bool rehearses_ = false, rehearsed_ = false;
+  int rehearsals_ = 0;
+  std::string rehearsal_error_;
+  Clock::time_point next_rehearsal_{};
   // Of earlier welcomes, still in a frame that nobody waits for.
   std::vector<std::unique_ptr<RenderThread>> retired_;
   std::deque<Begun> begun_;

@@ -17,11 +17,6 @@ constexpr std::size_t kSaidReady = 2;               // as many frames as a contr
 
 }  // namespace
 
-bool Daemon::can_draw() const {
-  const bool has_display = sink_ == proto::Deployment::DISPLAY && !images_endpoint_.empty();
-  return !drawing_ || (drawing_started_ && (rehearsed_ || !may_drop_) && (!has_display || outbox_.is_known()));
-}
-
 bool Daemon::draws(const proto::BeginFrame& begin) const {
   return std::ranges::find(begin.node(), options_.name) != begin.node().end();
 }
@@ -97,17 +92,15 @@ Status Daemon::take_events() {
     finishing_.reset();
   }
   if (drawing_ && !finishing_) LFD_TRY_STATUS(take_events_of(*drawing_));
-  rehearse();
+  rehearse(Clock::now());
   hand_on_waiting();
   return {};
 }
 
 Status Daemon::take_events_of(RenderThread& thread) {
   while (auto event = thread.take()) {
-    if (event->kind == FrameEvent::Kind::kReady && event->epoch == kForNobody) {
-      rehearsed_ = true;
-      next_words_ = Clock::now();
-    }
+    if (event->kind == FrameEvent::Kind::kReady && event->epoch == kForNobody && &thread == drawing_.get())
+      rehearsal_ended(event->result->report.error());
     const bool is_of_a_frame = event->kind == FrameEvent::Kind::kDrawn || event->kind == FrameEvent::Kind::kReady;
     if (is_of_a_frame && event->epoch != epoch_) continue;
     switch (event->kind) {

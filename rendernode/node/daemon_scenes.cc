@@ -1,21 +1,10 @@
-// Drawing for nobody. A scene that is to come: its assets are gathered and a second thread builds it while the first
-// goes on drawing.
+// A scene that is to come: its assets are gathered and a second thread builds it while the first goes on drawing.
 #include "base/large_blocks.h"
 #include "base/log.h"
 #include "proto/state.h"
 #include "rendernode/node/daemon.h"
 
 namespace lfd::node {
-
-// The first picture takes long: shaders are compiled, meshes and textures uploaded. Where there is a deadline, a node
-// says that it can draw once that is behind it; a spare that stands in for it draws so long.
-void Daemon::rehearse() {
-  if (!may_drop_ || rehearses_ || !drawing_ || !drawing_started_ || !ready_state_) return;
-  DrawJob job;
-  job.state = ready_state_;
-  job.assets = ready_assets_;
-  rehearses_ = drawing_->draw(std::move(job));
-}
 
 void Daemon::take_prepare(const proto::Prepare& message) {
   if (!message.has_update() || !follower_.state()) return drop_prepared();
@@ -104,8 +93,10 @@ void Daemon::switch_at_rest() {
 void Daemon::switch_to_prepared() {
   if (finishing_ && !finishing_->stop_within({})) retired_.push_back(std::move(finishing_));
   finishing_ = std::exchange(drawing_, std::move(preparation_->drawing));
+  log::info("draws scene {} from now on", preparation_->state->scene().name());
   preparation_.reset();
-  rehearses_ = rehearsed_ = true;
+  drawing_started_ = rehearses_ = rehearsed_ = true;
+  rehearsals_ = 0;
 }
 
 }  // namespace lfd::node

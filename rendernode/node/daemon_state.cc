@@ -7,6 +7,7 @@ namespace lfd::node {
 
 void Daemon::take_snapshot(const proto::Snapshot& snapshot) {
   follower_.snapshot_came(snapshot.state());
+  if (preparation_ && preparation_->is_built) forget_prepared();  // the update that showed it may be the one missed
   if (!snapshot.images_endpoint().empty()) use_images_endpoint(snapshot.images_endpoint());
   follow_assets();
 }
@@ -58,7 +59,10 @@ void Daemon::follow_assets() {
       break;
     }
   }
-  if (!gatherer_.has_all_of(state->scene())) return;
+  if (!gatherer_.has_all_of(state->scene())) {
+    rehearses_ = rehearsed_ = false;  // what is missing is to be uploaded
+    return;
+  }
   ready_state_ = state;
   ready_assets_ = std::make_shared<const Assets>(gatherer_.assets());
   const std::string hash = follower_.hash();

@@ -126,7 +126,7 @@ void RenderThread::begin(Renderer& renderer, DrawJob job) {
 }
 
 void RenderThread::say_undrawn(std::uint64_t frame, std::uint64_t epoch, const std::string& why) {
-  log::error("frame {}: {}", frame, why);
+  if (epoch != kForNobody) log::error("frame {}: {}", frame, why);
   FrameResult nothing;
   nothing.report.set_error(why);
   say({FrameEvent::Kind::kDrawn, frame, epoch, {}, {}});

@@ -12,6 +12,8 @@ namespace {
 using testing::ElementsAre;
 
 constexpr auto kLimit = std::chrono::milliseconds(600);  // of silence, as FaultStage's pacing has it
+constexpr const char* kLate = "\"right\" is late";
+constexpr auto kFirstPicture = std::chrono::seconds(3);
 
 std::vector<std::uint32_t> modules_of(const FaultStage& stage, const std::string& name) {
   const auto status = status_at(stage.endpoint());
@@ -45,16 +47,19 @@ TEST(SpareNodes, TakeOverWithTheSamePicturesAndGiveBack) {
   // It is told at the limit of silence; another such time is for a busy machine and the looking.
   EXPECT_LT(Clock::now() - killed, 2 * kLimit);
   ASSERT_TRUE(draws_whole_without_right(stage));
+  // Its assets are here; a context and a first picture take tenths of a second. Less than what waiting for a peer that
+  // is silent would add.
+  EXPECT_LT(Clock::now() - killed, 2 * kLimit + kFirstPicture);
   EXPECT_THAT(modules_of(stage, "reserve"), ElementsAre(2, 3));
   EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
   EXPECT_EQ(lines_with(stage["controller"], "\"reserve\" takes over modules 2-3 of \"right\""), 1);
 
-  const std::ptrdiff_t stale_before = lines_with(stage["controller"], "2 modules stale");
+  const std::ptrdiff_t late_before = lines_with(stage["controller"], kLate);
   // Mesa compiles all shaders in its first picture, and takes longer over it than a frame may.
   stage.start("right", {{"MESA_SHADER_CACHE_DISABLE", "true"}});
   ASSERT_TRUE(stage.is_whole());
   EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
-  EXPECT_EQ(lines_with(stage["controller"], "2 modules stale"), stale_before) << "giving back costs no frame";
+  EXPECT_EQ(lines_with(stage["controller"], kLate), late_before) << "giving back costs no frame";
   const auto status = status_at(stage.endpoint());
   ASSERT_TRUE(status);
   EXPECT_TRUE(peer_in(*status, "reserve").spare());
@@ -79,6 +84,20 @@ TEST(SpareNodes, KeepWhatTheyTookOverWherePolicySaysSo) {
     return peer_in(status, "reserve").state() == "out" && status.stale_modules() == 0;
   }));
   EXPECT_EQ(stage.pictures_from(stage.last_frame() + 2), before);
+}
+
+// It loses its GL context in the picture that it draws for nobody: it draws another, and takes its modules back then.
+TEST(SpareNodes, DrawUntilANodeHasDrawnAFirstPicture) {
+  FaultStage stage("node { name: \"reserve\" spare: true }");
+  const auto before = start_all(stage);
+  stage.kill("right");
+  ASSERT_TRUE(draws_whole_without_right(stage));
+  const std::ptrdiff_t late_before = lines_with(stage["controller"], kLate);
+  stage.start("right", {{"LFD_FAULTS", "lose-context@drawing:0"}});
+  ASSERT_TRUE(stage.is_whole());
+  EXPECT_TRUE(says(stage["right"], "a first picture cannot be drawn; until one can, this node takes no part: "));
+  EXPECT_EQ(lines_with(stage["controller"], kLate), late_before);
+  EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
 }
 
 // A node that is configured and never comes has its modules drawn too.
