@@ -33,6 +33,7 @@ inline const std::map<std::string, proto::TestPattern::Space> kSpaceNames{{"imag
 template <class Enumeration>
 std::vector<std::string> names_of(const std::map<std::string, Enumeration>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }

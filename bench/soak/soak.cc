@@ -99,9 +99,8 @@ class Soak {
     return {};
   }
 
-  // Faults as they come may have left it without modules all the time.
+  // Faults as they come may have left the spare without a GL context all the time, or with one.
   Status let_spare_draw() {
-    if (cluster_.spare_draws()) return {};
     cluster_.daemons().kill("right");
     LFD_TRY(const bool drawn, cluster_.look_until([this] { return cluster_.spare_draws(); }, seconds(kMostRecovery_s)));
     if (!drawn) return not_whole("the spare does not draw");

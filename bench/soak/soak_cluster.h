@@ -40,7 +40,7 @@ class SoakCluster {
 
   // All draw the controller's state and frames are shown.
   bool is_whole();
-  // The spare has been given modules, and has a GL context for them.
+  // The spare stands in for a node.
   bool spare_draws();
   std::optional<proto::Status> status();
   std::uint64_t last_frame() const { return checker_.last_swapped().value_or(0); }

@@ -100,7 +100,7 @@ void PlayedNode::take_state(const proto::Envelope& envelope) {
     if (envelope.pulse().sequence() > state.sequence()) send(ask);
   }
   if (envelope.has_begin()) {
-    begun.push_back(envelope.begin().frame());
+    if (!envelope.begin().again()) begun.push_back(envelope.begin().frame());
     const bool is_named = std::ranges::find(envelope.begin().node(), name_) != envelope.begin().node().end();
     if (is_named) named.push_back(envelope.begin().frame());
     if (is_named && habits.draws) answer(envelope.begin().frame());

@@ -103,10 +103,10 @@ TEST_F(DaemonsAgain, AFolderThatGoesAwayCostsPicturesOnly) {
     return status.frame() > blocked_at + 5 && status.stale_modules() == 0;
   }));
   if (!blocked) GTEST_SKIP() << "the display was quicker than the test in making its folder anew";
+  const std::string told = "Not a directory; frames go on, further pictures that fail for this reason are only counted";
+  ASSERT_TRUE(says(stage_["display"], told));
   // Of many pictures. What the display had in hand while its folder went away fails in other ways, each said likewise.
-  EXPECT_EQ(lines_with(stage_["display"],
-                       "Not a directory; frames go on, further pictures that fail for this reason are only counted"),
-            1);
+  EXPECT_EQ(lines_with(stage_["display"], told), 1);
   fs::remove(stage_.shown());
   ASSERT_TRUE(stage_.is_whole());
   EXPECT_EQ(stage_.pictures_from(stage_.last_frame()), before_);

@@ -52,8 +52,9 @@ class Flood {
       while (!ended_) {
         bool any = false;
         for (zmq::socket_t& socket : sockets_) {
-          any = socket.send(zmq::buffer(message), zmq::send_flags::dontwait).has_value() || any;
-          if (any) ++sent_;
+          const bool sent = socket.send(zmq::buffer(message), zmq::send_flags::dontwait).has_value();
+          any = any || sent;
+          if (sent) ++sent_;
         }
         if (!any) std::this_thread::sleep_for(1ms);
       }

@@ -16,7 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using testing_support::unwrapped;
 
-constexpr std::uint64_t kFaultAt = 15;  // frame
+// The frame. Both nodes draw by then: they start together, and each draws its first picture for nobody.
+constexpr std::uint64_t kFaultAt = 40;
 
 class NodeInstants : public testing::Test {
  protected:
