@@ -117,4 +117,5 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace lfd
 
+// NOLINTNEXTLINE(bugprone-exception-escape): it ends where there is no memory
 int main(int argc, char** argv) { return lfd::run(argc, argv); }

@@ -20,7 +20,8 @@ wire::Limits image_limits(const std::optional<ImageSize>& image) {
   limits.max_part_bytes = std::min(limits.max_part_bytes, largest + largest / 64 + wire::kShort_bytes);
   limits.queued_to_send = limits.queued_messages;
   const std::int64_t fit = kMostQueued_bytes / limits.max_part_bytes;
-  limits.queued_messages = static_cast<int>(std::clamp<std::int64_t>(fit, 2 * kImagesPerPass, limits.queued_messages));
+  limits.queued_messages =
+      static_cast<int>(std::clamp<std::int64_t>(fit, std::int64_t{2} * kImagesPerPass, limits.queued_messages));
   return limits;
 }
 

@@ -171,4 +171,5 @@ int main_of_display(int argc, char** argv) {
 }  // namespace
 }  // namespace lfd::display
 
+// NOLINTNEXTLINE(bugprone-exception-escape): it ends where there is no memory
 int main(int argc, char** argv) { return lfd::display::main_of_display(argc, argv); }

@@ -103,6 +103,7 @@ int run(Arguments a) {
 }  // namespace
 }  // namespace lfd::node
 
+// NOLINTNEXTLINE(bugprone-exception-escape): it ends where there is no memory
 int main(int argc, char** argv) {
   CLI::App app("Draws the modules that a deployment gives to the node, and streams their images.", "lfd-rendernode");
   app.footer(

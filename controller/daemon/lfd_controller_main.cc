@@ -127,6 +127,7 @@ int run(Arguments arguments) {
 }  // namespace
 }  // namespace lfd::controller
 
+// NOLINTNEXTLINE(bugprone-exception-escape): it ends where there is no memory
 int main(int argc, char** argv) {
   CLI::App app("Loads the scene, distributes it, opens and closes frames, answers `lfd ctl`.", "lfd-controller");
   app.footer("Exit codes: 0 done, 1 it failed, 2 wrong use. SIGINT and SIGTERM end it and tell all nodes.");

@@ -126,7 +126,7 @@ std::vector<std::size_t> Animations::add_moving_nodes(const NodeTree& tree, cons
         .node = {.parent = parent_moves ? static_cast<int>(moving_of[parent]) : -1, .placement = tree[node].placement},
         .world_from_parent = {}};
     if (has_parent && !parent_moves) moving.world_from_parent = world_from_node[parent];
-    moving_.push_back(std::move(moving));
+    moving_.push_back(moving);
   }
   return moving_of;
 }

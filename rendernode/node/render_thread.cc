@@ -19,9 +19,8 @@ constexpr int kMostLosses = 3;  // of contexts without a frame drawn between the
 }  // namespace
 
 RenderThread::RenderThread(int gpu, DisplayCalibration display, std::vector<std::uint32_t> modules)
-    : thread_([this, gpu, display = std::move(display), modules = std::move(modules)]() mutable {
-        run(gpu, std::move(display), std::move(modules));
-      }) {}
+    : thread_([this, gpu, display = std::move(display), modules = std::move(modules)] { run(gpu, display, modules); }) {
+}
 
 RenderThread::~RenderThread() {
   stop_ = true;
@@ -86,7 +85,7 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
   while (!stop_) {
     if (under_way_.empty()) {
       gets_on();
-      if (auto job = jobs_.take_within(50ms)) begin(renderer, std::move(*job));
+      if (auto job = jobs_.take_within(50ms)) begin(renderer, *job);
       if (context.is_lost()) return End::kLost;
       continue;
     }
@@ -98,7 +97,7 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
       std::this_thread::sleep_for((fault::slowdown() - 1) * (Clock::now() - oldest.begun));
     say({FrameEvent::Kind::kDrawn, oldest.frame, oldest.epoch, {}, {}});
     gets_on();
-    if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, std::move(*job));
+    if (auto job = jobs_.take_within(kNextJobPatience)) begin(renderer, *job);
     finish(renderer);
     gets_on();
     lost_in_a_row_ = 0;
@@ -108,7 +107,7 @@ RenderThread::End RenderThread::loop(gl::Context& context, Renderer& renderer) {
 
 // A frame whose state cannot be drawn is ready without images; its report says why, and its modules keep what they
 // show.
-void RenderThread::begin(Renderer& renderer, DrawJob job) {
+void RenderThread::begin(Renderer& renderer, const DrawJob& job) {
   fault::at(fault::kDrawing, job.frame);
   if (fault::due("hang", fault::kDrawing, job.frame)) std::this_thread::sleep_for(24h);
   FrameOptions options;

@@ -74,7 +74,7 @@ class RenderThread {
   End loop(gl::Context& context, Renderer& renderer);
   void give_up_frames(const std::string& why);
   void say_undrawn(std::uint64_t frame, std::uint64_t epoch, const std::string& why);
-  void begin(Renderer& renderer, DrawJob job);
+  void begin(Renderer& renderer, const DrawJob& job);
   void finish(Renderer& renderer);
   void say(FrameEvent event);
   void gets_on() { last_progress_ = Clock::now(); }
