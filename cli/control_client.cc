@@ -70,9 +70,16 @@ std::optional<proto::Reply> ControlClient::receive(std::uint64_t id, Clock::dura
 }
 
 Result<proto::Reply> ControlClient::ask(const proto::Request& request, Clock::duration at_most) {
+  constexpr auto kLook = std::chrono::milliseconds(20);  // less than it takes to start a controller anew
   const auto deadline = Clock::now() + at_most;
   LFD_TRY(const std::uint64_t id, send(request, at_most));
-  const auto reply = receive(id, deadline - Clock::now());
+  std::optional<proto::Reply> reply;
+  while (!reply && Clock::now() < deadline) {
+    reply = receive(id, std::min<Clock::duration>(kLook, deadline - Clock::now()));
+    if (reply || wire::is_connected(socket_)) continue;
+    reply = receive(id, {});  // its last words
+    if (!reply) return Error(fmt::format("the controller at {} has gone before it answered", endpoint_));
+  }
   if (!reply) return no_answer();
   if (!reply->error().empty()) return Error(reply->error());
   return *reply;

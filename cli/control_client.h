@@ -26,7 +26,8 @@ class ControlClient {
   // Asks the controller to end. Its reply may be lost with the connection: that it has gone is an answer too.
   Status quit(Clock::duration at_most);
 
-  // Both. A reply that tells an error is an error.
+  // Both. A reply that tells an error is an error, and so is a connection that is lost before it: another controller at
+  // the same address does not know of the request.
   Result<proto::Reply> ask(const proto::Request& request, Clock::duration at_most);
 
  private:

@@ -22,4 +22,8 @@ bool wait(std::span<const Socket* const> sockets, std::span<const int> descripto
   }
 }
 
+bool is_connected(const Socket& socket) {
+  return (socket.transport().zmq.get(zmq::sockopt::events) & ZMQ_POLLOUT) != 0;
+}
+
 }  // namespace lfd::wire

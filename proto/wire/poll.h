@@ -19,4 +19,7 @@ inline bool wait(std::initializer_list<const Socket*> sockets, std::initializer_
   return wait(std::span(sockets.begin(), sockets.size()), std::span(descriptors.begin(), descriptors.size()), at_most);
 }
 
+// Of a dealer: whether its peer is there, as far as the transport knows.
+bool is_connected(const Socket& socket);
+
 }  // namespace lfd::wire

@@ -230,7 +230,7 @@ void Daemon::say_ready(std::uint64_t frame, proto::NodeReport report) {
 void Daemon::say_dropped(std::uint64_t frame, proto::NodeReport report) {
   ++dropped_frames_;
   if (sink_ == proto::Deployment::DISPLAY) {
-    report.set_error("images dropped: the display had not given credit for them by the time they were drawn");
+    report.set_error("images dropped: the display was not ready for them by the time they were drawn");
   } else {
     report.add_warning("images dropped: the sink is too slow");
   }

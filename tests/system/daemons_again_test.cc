@@ -9,6 +9,8 @@
 #include <fstream>
 
 #include "base/log.h"
+#include "controller/scene/made/made_scenes.h"
+#include "controller/scene/scene_file.h"
 #include "tests/system/fault_stage.h"
 
 namespace lfd::harness {
@@ -129,6 +131,22 @@ TEST_F(DaemonsAgain, AFullDiskCostsPicturesOnly) {
   EXPECT_LE(times, 4) << "of many pictures that failed";
   ASSERT_TRUE(stage_.is_whole());
   EXPECT_EQ(stage_.pictures_from(stage_.last_frame()), before_);
+}
+
+// Who waits for an answer of a controller that was killed hears that it has gone, though another is there by then.
+TEST_F(DaemonsAgain, AControllerThatGoesLeavesNobodyWaitingForItsAnswer) {
+  const fs::path scene = stage_.deployment().parent_path() / "room.glb";
+  ASSERT_TRUE(scene::write_glb(scene, scene::make_scene("room", 1)->data));
+  for (const char* const name : {"left", "right"}) stage_[name].signal(SIGSTOP);  // they prepare nothing
+  const auto ctl = start_program("lfd", {"ctl", "--controller", stage_.endpoint(), "scene", scene.string()});
+  ASSERT_TRUE(says(stage_["controller"], "2 nodes prepare it"));
+  stage_.start("controller");
+  const auto exit = ctl->wait(kClusterPatience);  // a scene may take ten minutes
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 1);
+  EXPECT_EQ(lines_with(*ctl, "has gone before it answered"), 1);
+  for (const char* const name : {"left", "right"}) stage_[name].signal(SIGCONT);
+  EXPECT_TRUE(stage_.is_whole());
 }
 
 }  // namespace

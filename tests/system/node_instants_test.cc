@@ -97,6 +97,7 @@ TEST(NodeStops, ShorterThanTheLimitPutsNobodyOut) {
   for (const char* const name : {"controller", "display", "left", "right"}) stage.start(name);
   ASSERT_TRUE(stage.is_whole());
   const std::uint64_t late_before = unwrapped(status_at(stage.endpoint())).late_frames();
+  const std::ptrdiff_t joins_before = lines_with(stage["controller"], "\"right\" joins");
   stage["right"].signal(SIGSTOP);
   ASSERT_TRUE(becomes(stage.endpoint(), [&](const proto::Status& status) {
     return status.late_frames() > late_before + 2 && status.stale_modules() == 2;
@@ -104,7 +105,7 @@ TEST(NodeStops, ShorterThanTheLimitPutsNobodyOut) {
   stage["right"].signal(SIGCONT);
   ASSERT_TRUE(stage.is_whole());
   EXPECT_EQ(lines_with(stage["controller"], "\"right\" is out"), 0);
-  EXPECT_EQ(lines_with(stage["controller"], "\"right\" joins"), 1);
+  EXPECT_EQ(lines_with(stage["controller"], "\"right\" joins"), joins_before);
   EXPECT_TRUE(stage.frames_went_on());
 }
 
@@ -157,8 +158,8 @@ TEST_F(NodeInstants, ALostContextIsMadeAnew) {
 }
 
 TEST_F(NodeInstants, AGpuThatIsLostAgainAndAgainIsGivenUp) {
-  run_with({{"LFD_FAULTS",
-             "lose-context@drawing:10,lose-context@drawing:10,lose-context@drawing:10,lose-context@drawing:10"}});
+  const std::string loss = fmt::format("lose-context@drawing:{}", kFaultAt);
+  run_with({{"LFD_FAULTS", fmt::format("{0},{0},{0},{0}", loss)}});
   const auto exit = stage_["right"].wait(kClusterPatience);
   ASSERT_TRUE(exit);
   EXPECT_EQ(exit->code, 1);
