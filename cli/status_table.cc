@@ -110,7 +110,7 @@ std::string pattern_text(const proto::TestPattern& message) {
 std::string status_table(const proto::Status& status) {
   std::string table;
   const auto line = [&](const char* name, const std::string& value) {
-    table += fmt::format("{:<18}{}\n", name, value);
+    table += fmt::format("{:<18}{}\n", name, printable(value));
   };
   line("deployment", status.deployment());
   line("scene", status.scene());
@@ -127,9 +127,9 @@ std::string status_table(const proto::Status& status) {
   line("pattern", pattern_text(status.render().pattern()));
   line("published", fmt::format("{} bytes", status.published_bytes()));
   line("refused messages", std::to_string(status.refused_messages()));
-  line("last fault", status.last_fault().empty() ? "none" : printable(status.last_fault()));
+  line("last fault", status.last_fault().empty() ? "none" : status.last_fault());
   table += roi_text(status.roi());
-  for (const std::string& warning : status.scene_warning()) table += fmt::format("warning: {}\n", warning);
+  for (const std::string& warning : status.scene_warning()) table += fmt::format("warning: {}\n", printable(warning));
   table += choices_text(status);
   table += fmt::format("\n{:<16} {:<8} {:<8} {:>8}  {:<34}{}\n", "peer", "role", "state", "process", "state hash",
                        "modules");
@@ -138,7 +138,7 @@ std::string status_table(const proto::Status& status) {
                          peer.role() == proto::DISPLAY ? "display"
                          : peer.spare()                ? "spare"
                                                        : "node",
-                         peer.state(), peer.process(), peer.state_hash(),
+                         printable(peer.state()), peer.process(), printable(peer.state_hash()),
                          module_ranges(std::vector<int>(peer.module().begin(), peer.module().end())));
   }
   table += fmt::format("\n{}", figures_of_peers(status));

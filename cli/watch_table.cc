@@ -36,7 +36,7 @@ std::string cluster_lines(const proto::Status& status) {
                        status.frames_per_second(), status.late_frames(), status.stale_modules(), status.module_count());
   lines +=
       fmt::format("begin to swap {} ms, to shown {} ms, state {} (update {})\n", ms_text(status.begin_to_swap_ms()),
-                  ms_text(status.begin_to_shown_ms()), status.state_hash().substr(0, 8), status.sequence());
+                  ms_text(status.begin_to_shown_ms()), printable(status.state_hash().substr(0, 8)), status.sequence());
   lines += fmt::format("last fault: {}\n", status.last_fault().empty() ? "none" : printable(status.last_fault()));
   return lines;
 }
