@@ -93,10 +93,7 @@ Status ControlClient::quit(Clock::duration at_most) {
   LFD_TRY(const std::uint64_t id, send(std::move(request), at_most));
   while (Clock::now() < deadline) {
     if (const auto reply = receive(id, kLook)) return reply->error().empty() ? Status() : Error(reply->error());
-    proto::Envelope still_there;
-    still_there.mutable_request()->set_id(++last_id_);
-    still_there.mutable_request()->mutable_status();
-    if (!socket_.send(still_there)) return {};
+    if (!wire::is_connected(socket_)) return {};
   }
   return Error(fmt::format("the controller at {} was asked to end and does not", endpoint_));
 }

@@ -109,6 +109,7 @@ class Daemon {
   void say_prepared(const std::string& error);
   void forget_prepared();
   void drop_prepared();
+  bool is_prepared_shown() const;  // by the newest state
   bool shows_prepared(const Begun& begun) const;
   void switch_to_prepared();
   void switch_at_rest();

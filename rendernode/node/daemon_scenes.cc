@@ -77,17 +77,20 @@ void Daemon::forget_prepared() {
   preparation_.reset();
 }
 
+bool Daemon::is_prepared_shown() const {
+  return preparation_ && preparation_->is_built && preparation_->drawing && prepared_shown_ != 0 &&
+         preparation_->number == prepared_shown_;
+}
+
 bool Daemon::shows_prepared(const Begun& begun) const {
-  return preparation_ && preparation_->is_built && preparation_->drawing && preparation_->number == prepared_shown_ &&
-         begun.begin.sequence() >= prepared_sequence_;
+  return is_prepared_shown() && begun.begin.sequence() >= prepared_sequence_;
 }
 
 // A spare that stands in for nobody hears of no frame: it would hold both scenes until it does. All begins of before
 // are drawn, and those that follow are of the new scene: updates and begins come in one order.
 void Daemon::switch_at_rest() {
-  const bool is_shown = preparation_ && preparation_->is_built && preparation_->drawing && prepared_shown_ != 0 &&
-                        preparation_->number == prepared_shown_;
-  if (is_shown && begun_.empty() && drawing_ && !finishing_ && drawing_->pending() == 0) switch_to_prepared();
+  if (is_prepared_shown() && begun_.empty() && drawing_ && !finishing_ && drawing_->pending() == 0)
+    switch_to_prepared();
 }
 
 void Daemon::switch_to_prepared() {

@@ -38,8 +38,7 @@ std::string clock_of(const Process& process) {
 TEST(ClockJumps, OfTheTimeOfDayChangeNothing) {
   const auto library = fake_time_library();
   if (!library) GTEST_SKIP() << "libfaketime is not installed (Debian: faketime)";
-  // A peer may be silent for 1.8 s: every look at the clock reads a file, on a machine that others use too.
-  FaultStage stage("", "pacing { frames_per_second: 20 heartbeat_ms: 300 deadline_ms: 250 }");
+  FaultStage stage("");
   const fs::path offset = stage.deployment().parent_path() / "offset";
   const auto set = [&](const char* text) {
     ASSERT_TRUE(write_file(offset.string() + ".new", text));

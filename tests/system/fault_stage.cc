@@ -91,6 +91,13 @@ testing::AssertionResult FaultStage::is_whole() const {
   return shows_frames_after(last_frame() + 3);
 }
 
+testing::AssertionResult FaultStage::is_whole_by_spare() const {
+  return becomes(endpoint_, [](const proto::Status& status) {
+    return peer_in(status, "right").state() == "out" && peer_in(status, "reserve").state() == "ready" &&
+           status.stale_modules() == 0;
+  });
+}
+
 std::map<int, std::string> FaultStage::pictures_from(std::uint64_t frame) const {
   const auto deadline = Clock::now() + kClusterPatience;
   while (Clock::now() < deadline) {

@@ -48,6 +48,11 @@ class FaultStage {
 
   // Waits until all nodes draw the controller's state, and three more frames are shown.
   testing::AssertionResult is_whole() const;
+  // Waits until right is out and a spare named "reserve" draws: nothing is stale.
+  testing::AssertionResult is_whole_by_spare() const;
+
+  // What the controller says of right; also in its last frames before it is out.
+  static constexpr const char* kLate = "\"right\" is late";
 
   // The colour pictures (bytes of the PNGs) of the first frame from `frame` on that has those of all four modules and
   // has a successor: it is written whole.

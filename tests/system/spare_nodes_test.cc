@@ -12,7 +12,6 @@ namespace {
 using testing::ElementsAre;
 
 constexpr auto kLimit = std::chrono::milliseconds(600);  // of silence, as FaultStage's pacing has it
-constexpr const char* kLate = "\"right\" is late";
 constexpr auto kFirstPicture = std::chrono::seconds(3);
 
 std::vector<std::uint32_t> modules_of(const FaultStage& stage, const std::string& name) {
@@ -21,13 +20,6 @@ std::vector<std::uint32_t> modules_of(const FaultStage& stage, const std::string
   if (!status) return {};
   const proto::PeerStatus peer = peer_in(*status, name);
   return {peer.module().begin(), peer.module().end()};
-}
-
-testing::AssertionResult draws_whole_without_right(const FaultStage& stage) {
-  return becomes(stage.endpoint(), [](const proto::Status& status) {
-    return peer_in(status, "right").state() == "out" && peer_in(status, "reserve").state() == "ready" &&
-           status.stale_modules() == 0;
-  });
 }
 
 std::map<int, std::string> start_all(FaultStage& stage) {
@@ -46,7 +38,7 @@ TEST(SpareNodes, TakeOverWithTheSamePicturesAndGiveBack) {
                       [](const proto::Status& status) { return peer_in(status, "reserve").module_size() == 2; }));
   // It is told at the limit of silence; another such time is for a busy machine and the looking.
   EXPECT_LT(Clock::now() - killed, 2 * kLimit);
-  ASSERT_TRUE(draws_whole_without_right(stage));
+  ASSERT_TRUE(stage.is_whole_by_spare());
   // Its assets are here; a context and a first picture take tenths of a second. Less than what waiting for a peer that
   // is silent would add.
   EXPECT_LT(Clock::now() - killed, 2 * kLimit + kFirstPicture);
@@ -54,12 +46,12 @@ TEST(SpareNodes, TakeOverWithTheSamePicturesAndGiveBack) {
   EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
   EXPECT_EQ(lines_with(stage["controller"], "\"reserve\" takes over modules 2-3 of \"right\""), 1);
 
-  const std::ptrdiff_t late_before = lines_with(stage["controller"], kLate);
+  const std::ptrdiff_t late_before = lines_with(stage["controller"], FaultStage::kLate);
   // Mesa compiles all shaders in its first picture, and takes longer over it than a frame may.
   stage.start("right", {{"MESA_SHADER_CACHE_DISABLE", "true"}});
   ASSERT_TRUE(stage.is_whole());
   EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
-  EXPECT_EQ(lines_with(stage["controller"], kLate), late_before) << "giving back costs no frame";
+  EXPECT_EQ(lines_with(stage["controller"], FaultStage::kLate), late_before) << "giving back costs no frame";
   const auto status = status_at(stage.endpoint());
   ASSERT_TRUE(status);
   EXPECT_TRUE(peer_in(*status, "reserve").spare());
@@ -71,12 +63,12 @@ TEST(SpareNodes, KeepWhatTheyTookOverWherePolicySaysSo) {
   FaultStage stage("node { name: \"reserve\" spare: true } give_back: NEVER");
   const auto before = start_all(stage);
   stage.kill("right");
-  ASSERT_TRUE(draws_whole_without_right(stage));
+  ASSERT_TRUE(stage.is_whole_by_spare());
   stage.start("right");
   ASSERT_TRUE(stage.is_whole());
   // Now right's own end costs nothing, and the spare's end is made good by right.
   stage.kill("right");
-  ASSERT_TRUE(draws_whole_without_right(stage));
+  ASSERT_TRUE(stage.is_whole_by_spare());
   stage.start("right");
   ASSERT_TRUE(stage.is_whole());
   stage.kill("reserve");
@@ -91,12 +83,12 @@ TEST(SpareNodes, DrawUntilANodeHasDrawnAFirstPicture) {
   FaultStage stage("node { name: \"reserve\" spare: true }");
   const auto before = start_all(stage);
   stage.kill("right");
-  ASSERT_TRUE(draws_whole_without_right(stage));
-  const std::ptrdiff_t late_before = lines_with(stage["controller"], kLate);
+  ASSERT_TRUE(stage.is_whole_by_spare());
+  const std::ptrdiff_t late_before = lines_with(stage["controller"], FaultStage::kLate);
   stage.start("right", {{"LFD_FAULTS", "lose-context@drawing:0"}});
   ASSERT_TRUE(stage.is_whole());
   EXPECT_TRUE(says(stage["right"], "a first picture cannot be drawn; until one can, this node takes no part: "));
-  EXPECT_EQ(lines_with(stage["controller"], kLate), late_before);
+  EXPECT_EQ(lines_with(stage["controller"], FaultStage::kLate), late_before);
   EXPECT_EQ(stage.pictures_from(stage.last_frame()), before);
 }
 
